@@ -1,0 +1,15 @@
+// One CAN FD frame as it travels on any transport. Plain data. RT: safe.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace reed::bus {
+
+struct Frame {
+  std::uint32_t id = 0;    // 11-bit identifier
+  std::uint8_t size = 0;   // bytes used, one of the CAN FD sizes
+  std::array<std::uint8_t, 64> data{};
+};
+
+}  // namespace reed::bus

@@ -1,0 +1,15 @@
+# The warnings of a control project, all of them errors: a silent narrowing or a shadowed gain moves an arm.
+add_library(reed_warnings INTERFACE)
+target_compile_options(reed_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Werror
+  -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-conversion
+  -Wshadow -Wold-style-cast -Wcast-align -Wcast-qual -Wuseless-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
+  -Wnull-dereference -Wduplicated-cond -Wduplicated-branches -Wlogical-op
+  -Wformat=2 -Wimplicit-fallthrough -Wundef -Wvla)
+
+# Every first-party library or program: C++20, warnings, one include root (the repository), generated headers as system headers.
+function(reed_target name)
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:reed_warnings>)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()

@@ -1,0 +1,78 @@
+// What the arm is: the only knowledge, beside the bus, that firmware and plant share.
+// Plain data in SI units; filled by arm_file.h from config/arms/*.toml. RT: set-up only (it owns heap memory).
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace reed {
+
+inline constexpr int kMaxJoints = 8;
+inline constexpr int kMaxParameters = 12;
+
+/// One row of modified (Craig) Denavit-Hartenberg parameters:
+/// T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta_i) Tz(d), alpha = alpha_{i-1}, a = a_{i-1}. All joints are revolute.
+struct DhRow {
+  double alpha_rad = 0.0;
+  double a_m = 0.0;
+  double d_m = 0.0;
+};
+
+/// A rigid body in the frame of the link it belongs to.
+struct InertialBody {
+  double mass_kg = 0.0;
+  Eigen::Vector3d com_m = Eigen::Vector3d::Zero();                 // link frame
+  Eigen::Matrix3d inertia_com_kgm2 = Eigen::Matrix3d::Zero();      // about the centre of mass, axes of the link frame
+};
+
+/// Cross-section of one straight member. Round tube: one EI for both bending planes.
+struct BeamSection {
+  double length_m = 0.0;
+  double EA_N = 0.0;
+  double EI_Nm2 = 0.0;
+  double GJ_Nm2 = 0.0;
+  double rhoA_kgpm = 0.0;
+};
+
+/// What one unit of a parameter adds to one body.
+struct ParameterShape {
+  int body = 0;  // 0-based link index
+  InertialBody unit;
+};
+
+/// One uncertain structural parameter p_k of (28): it scales inertial shapes and, or, viscous friction.
+struct StructuralParameter {
+  std::string name;
+  double truth = 0.0;    // plant
+  double nominal = 0.0;  // controller's start p_0
+  double lo = 0.0;       // box of the projection
+  double hi = 0.0;
+  std::vector<ParameterShape> shapes;
+  std::vector<double> viscous_weights;  // N·m·s/rad per unit, one per joint; empty: none
+};
+
+struct ArmDescription {
+  std::string name;
+  std::vector<DhRow> dh;
+  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};   // base frame
+  Eigen::Vector3d tool_offset_m{0.0, 0.0, 0.0};    // tool point in the last link frame
+  std::vector<InertialBody> bodies;                // true totals, one per link, parameters at their truth included
+  std::vector<StructuralParameter> parameters;     // at most kMaxParameters
+  // Per joint; empty where the file does not say (a purely kinematic arm).
+  std::vector<double> rotor_inertia_kgm2;          // reflected to the joint
+  std::vector<double> joint_stiffness_Nmprad;      // k_q
+  std::vector<double> joint_hardening_Nmprad3;     // cubic term k_3 of the spring: torque = k_q xi + k_3 xi^3
+  std::vector<double> coulomb_Nm;
+  std::vector<double> torque_limit_Nm;
+  std::vector<double> position_min_rad;
+  std::vector<double> position_max_rad;
+  std::vector<double> speed_limit_radps;
+  // Members in order from base to tip: for each link the non-zero d (along z), then the non-zero a (along x) that follows it.
+  std::vector<BeamSection> sections;
+
+  int dof() const { return static_cast<int>(dh.size()); }
+  int num_parameters() const { return static_cast<int>(parameters.size()); }
+};
+
+}  // namespace reed
