@@ -1,5 +1,6 @@
 // What the arm is: the only knowledge, beside the bus, that firmware and plant share.
-// Plain data in SI units; filled by arm_file.h from config/arms/*.toml. RT: set-up only (it owns heap memory).
+// Plain data in SI units; filled by arm_file.h from config/arms/*.toml. RT: set-up only (it owns heap
+// memory).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +23,9 @@ struct DhRow {
 /// A rigid body in the frame of the link it belongs to.
 struct InertialBody {
   double mass_kg = 0.0;
-  Eigen::Vector3d com_m = Eigen::Vector3d::Zero();                 // link frame
-  Eigen::Matrix3d inertia_com_kgm2 = Eigen::Matrix3d::Zero();      // about the centre of mass, axes of the link frame
+  Eigen::Vector3d com_m = Eigen::Vector3d::Zero();  // link frame
+  Eigen::Matrix3d inertia_com_kgm2 =
+      Eigen::Matrix3d::Zero();  // about the centre of mass, axes of the link frame
 };
 
 /// Cross-section of one straight member. Round tube: one EI for both bending planes.
@@ -55,20 +57,21 @@ struct StructuralParameter {
 struct ArmDescription {
   std::string name;
   std::vector<DhRow> dh;
-  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};   // base frame
-  Eigen::Vector3d tool_offset_m{0.0, 0.0, 0.0};    // tool point in the last link frame
-  std::vector<InertialBody> bodies;                // true totals, one per link, parameters at their truth included
-  std::vector<StructuralParameter> parameters;     // at most kMaxParameters
+  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};  // base frame
+  Eigen::Vector3d tool_offset_m{0.0, 0.0, 0.0};   // tool point in the last link frame
+  std::vector<InertialBody> bodies;  // true totals, one per link, parameters at their truth included
+  std::vector<StructuralParameter> parameters;  // at most kMaxParameters
   // Per joint; empty where the file does not say (a purely kinematic arm).
-  std::vector<double> rotor_inertia_kgm2;          // reflected to the joint
-  std::vector<double> joint_stiffness_Nmprad;      // k_q
-  std::vector<double> joint_hardening_Nmprad3;     // cubic term k_3 of the spring: torque = k_q xi + k_3 xi^3
+  std::vector<double> rotor_inertia_kgm2;       // reflected to the joint
+  std::vector<double> joint_stiffness_Nmprad;   // k_q
+  std::vector<double> joint_hardening_Nmprad3;  // cubic term k_3 of the spring: torque = k_q xi + k_3 xi^3
   std::vector<double> coulomb_Nm;
   std::vector<double> torque_limit_Nm;
   std::vector<double> position_min_rad;
   std::vector<double> position_max_rad;
   std::vector<double> speed_limit_radps;
-  // Members in order from base to tip: for each link the non-zero d (along z), then the non-zero a (along x) that follows it.
+  // Members in order from base to tip: for each link the non-zero d (along z), then the non-zero a (along x)
+  // that follows it.
   std::vector<BeamSection> sections;
 
   int dof() const { return static_cast<int>(dh.size()); }

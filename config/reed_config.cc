@@ -1,0 +1,38 @@
+// reed_config: checks a scenario and writes what the programs will run with, after defaults and overrides.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "config/schema/scenario_file.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
+  std::string scenario = "press_known", write_path;
+  reed::LoadOptions options;
+  bool keys = false;
+  app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
+  app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
+  app.add_option("--set", options.set, "SECTION.KEY=VALUE, repeatable")->take_all();
+  app.add_option("--write", write_path, "write the effective configuration here");
+  app.add_flag("--keys", keys, "print the table of all keys (config/README.md)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (keys) {
+    std::cout << reed::KeyReference();
+    return 0;
+  }
+  try {
+    const std::string effective = reed::EffectiveToml(reed::LoadScenario(scenario, options));
+    if (write_path.empty()) return 0;
+    std::ofstream out(write_path);
+    if (!(out << effective)) throw reed::ConfigError(write_path + ": cannot be written");
+  } catch (const reed::ConfigError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

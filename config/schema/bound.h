@@ -1,0 +1,19 @@
+// What a number in a file may be. The same bound checks it, documents it, and is quoted in the error.
+#pragma once
+
+#include <string>
+
+namespace reed {
+
+struct Bound {
+  const char* unit;  // "1" for a pure number
+  double lo;
+  double hi;
+};
+
+/// "0.1 ... 3600 s"
+std::string ToText(const Bound& bound);
+/// Shortest decimal that reads back as the same double.
+std::string ToText(double value);
+
+}  // namespace reed

@@ -1,0 +1,188 @@
+#include "config/schema/document.h"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace reed {
+namespace {
+
+std::string ReadWhole(const std::string& path) {
+  std::error_code ec;
+  if (!std::filesystem::is_regular_file(path, ec)) throw ConfigError(path + ": no such file");
+  std::ifstream in(path);
+  if (!in) throw ConfigError(path + ": cannot be read");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+toml::array ToTomlArray(const nlohmann::json& json);
+
+toml::table ToTomlTable(const nlohmann::json& json);
+
+template <typename Insert>
+void ConvertValue(const nlohmann::json& json, Insert insert) {
+  switch (json.type()) {
+    case nlohmann::json::value_t::object:
+      insert(ToTomlTable(json));
+      break;
+    case nlohmann::json::value_t::array:
+      insert(ToTomlArray(json));
+      break;
+    case nlohmann::json::value_t::string:
+      insert(json.get<std::string>());
+      break;
+    case nlohmann::json::value_t::boolean:
+      insert(json.get<bool>());
+      break;
+    case nlohmann::json::value_t::number_integer:
+    case nlohmann::json::value_t::number_unsigned:
+      insert(json.get<std::int64_t>());
+      break;
+    case nlohmann::json::value_t::number_float:
+      insert(json.get<double>());
+      break;
+    default:
+      break;  // null: as if the key were absent
+  }
+}
+
+toml::array ToTomlArray(const nlohmann::json& json) {
+  toml::array out;
+  for (const auto& item : json)
+    ConvertValue(item, [&](auto&& value) { out.push_back(std::forward<decltype(value)>(value)); });
+  return out;
+}
+
+toml::table ToTomlTable(const nlohmann::json& json) {
+  toml::table out;
+  for (const auto& [key, item] : json.items())
+    ConvertValue(item,
+                 [&](auto&& value) { out.insert_or_assign(key, std::forward<decltype(value)>(value)); });
+  return out;
+}
+
+std::size_t LineOfByte(const std::string& text, std::size_t byte) {
+  return 1 +
+         static_cast<std::size_t>(std::count(
+             text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
+}
+
+/// First line on which a JSON text writes the last name of a key such as "bodies[1].mass".
+std::size_t LineOfKey(const std::string& text, const std::string& key) {
+  std::string name = key.substr(0, key.find('['));
+  const std::size_t tail = key.rfind('.');
+  if (tail != std::string::npos) name = key.substr(tail + 1);
+  name = name.substr(0, name.find('['));
+  const std::size_t at = text.find('"' + name + '"');
+  return at == std::string::npos ? 1 : LineOfByte(text, at);
+}
+
+std::vector<std::string> SplitPath(const std::string& dotted) {
+  std::vector<std::string> parts;
+  std::istringstream in(dotted);
+  for (std::string part; std::getline(in, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+}  // namespace
+
+Document Document::Load(const std::string& path) {
+  Document doc;
+  doc.path_ = path;
+  const std::string text = ReadWhole(path);
+  if (path.ends_with(".json")) {
+    try {
+      doc.root_ = ToTomlTable(nlohmann::json::parse(text));
+    } catch (const nlohmann::json::parse_error& error) {
+      throw ConfigError(path + ":" + std::to_string(LineOfByte(text, error.byte)) + ": not JSON");
+    }
+    doc.json_texts_.emplace_back(path, text);
+    return doc;
+  }
+  try {
+    doc.root_ = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(path + ":" + std::to_string(error.source().begin.line) +
+                      ": not TOML: " + std::string(error.description()));
+  }
+  return doc;
+}
+
+void Document::Graft(const std::string& section, Document&& other) {
+  root_.insert_or_assign(section, std::move(other.root_));
+  for (auto& text : other.json_texts_) json_texts_.push_back(std::move(text));
+}
+
+void Document::Override(const std::string& assignment) {
+  const auto refuse = [&](const std::string& problem) {
+    throw ConfigError("--set " + assignment + ": " + problem);
+  };
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) refuse("expected SECTION.KEY=VALUE");
+  const std::string dotted = assignment.substr(0, equals);
+  const std::string value_text = assignment.substr(equals + 1);
+
+  toml::table parsed;
+  try {
+    parsed = toml::parse("value = " + value_text);
+  } catch (const toml::parse_error&) {
+    parsed.insert("value", value_text);  // a bare word is a string
+  }
+
+  const std::vector<std::string> parts = SplitPath(dotted);
+  toml::node* node = &root_;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    toml::node* next = nullptr;
+    if (toml::table* table = node->as_table()) {
+      next = table->get(parts[i]);
+      if (next == nullptr) {
+        table->insert(parts[i], toml::table{});
+        next = table->get(parts[i]);
+      }
+    } else if (toml::array* array = node->as_array()) {
+      const std::size_t index = std::strtoul(parts[i].c_str(), nullptr, 10);
+      if (index >= array->size())
+        refuse("no entry " + parts[i] + ", there are " + std::to_string(array->size()));
+      next = array->get(index);
+    }
+    if (next == nullptr || (!next->is_table() && !next->is_array()))
+      refuse("'" + parts[i] + "' is not a section");
+    node = next;
+  }
+  toml::node* value = parsed.get("value");
+  if (toml::table* table = node->as_table()) {
+    value->visit([&](auto& concrete) { table->insert_or_assign(parts.back(), concrete); });
+  } else if (toml::array* array = node->as_array()) {
+    const std::size_t index = std::strtoul(parts.back().c_str(), nullptr, 10);
+    if (index >= array->size())
+      refuse("no entry " + parts.back() + ", there are " + std::to_string(array->size()));
+    value->visit([&](auto& concrete) {
+      array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), concrete);
+    });
+  }
+  overridden_.insert(dotted);
+}
+
+void Document::Fail(const toml::node* where, const std::string& key, const std::string& problem) const {
+  std::string plain;  // key with [i] written as .i, as --set takes it
+  for (const char c : key) {
+    if (c == '[')
+      plain += '.';
+    else if (c != ']')
+      plain += c;
+  }
+  for (const std::string& typed : overridden_)
+    if (plain == typed || plain.starts_with(typed + "."))
+      throw ConfigError("--set " + typed + ": " + key + ": " + problem);
+  if (where != nullptr && where->source().path && where->source().begin)
+    throw ConfigError(*where->source().path + ":" + std::to_string(where->source().begin.line) + ": " + key +
+                      ": " + problem);
+  for (const auto& [path, text] : json_texts_)
+    throw ConfigError(path + ":" + std::to_string(LineOfKey(text, key)) + ": " + key + ": " + problem);
+  throw ConfigError(path_ + ": " + key + ": " + problem);
+}
+
+}  // namespace reed

@@ -1,0 +1,125 @@
+#include "config/schema/reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace reed {
+
+std::string ToText(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end.ptr};
+}
+
+std::string ToText(const Bound& bound) {
+  const std::string unit = std::string(bound.unit) == "1" ? "" : std::string(" ") + bound.unit;
+  return ToText(bound.lo) + " ... " + ToText(bound.hi) + unit;
+}
+
+toml::node* Reader::Get(const char* key) {
+  known_.emplace_back(key);
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+void Reader::Fail(const std::string& key, const std::string& problem) const {
+  const toml::node* where = table_;
+  if (table_ != nullptr) {
+    const toml::node* node = table_->get(key.substr(0, key.find('[')));
+    if (node != nullptr) where = node;
+  }
+  doc_.Fail(where, KeyName(key), problem);
+}
+
+double Reader::CheckedNumber(const toml::node& node, const std::string& key, const Bound& bound) const {
+  const auto number = node.value<double>();
+  if (!number || node.is_boolean())
+    doc_.Fail(&node, KeyName(key), "expected a number; allowed: " + ToText(bound));
+  if (!std::isfinite(*number))
+    doc_.Fail(&node, KeyName(key), "not a finite number; allowed: " + ToText(bound));
+  if (*number < bound.lo || *number > bound.hi)
+    doc_.Fail(&node, KeyName(key), ToText(*number) + " is out of range; allowed: " + ToText(bound));
+  return *number;
+}
+
+void Reader::Number(const char* key, double& value, Bound bound, const char*) {
+  if (const toml::node* node = Get(key)) value = CheckedNumber(*node, key, bound);
+}
+
+void Reader::Integer(const char* key, int& value, Bound bound, const char*) {
+  const toml::node* node = Get(key);
+  if (node == nullptr) return;
+  const double number = CheckedNumber(*node, key, bound);
+  if (number != std::floor(number)) Fail(key, "expected a whole number; allowed: " + ToText(bound));
+  value = static_cast<int>(number);
+}
+
+void Reader::Seed(const char* key, std::int64_t& value, const char*) {
+  const toml::node* node = Get(key);
+  if (node == nullptr) return;
+  const auto number = node->value_exact<std::int64_t>();
+  if (!number || *number < 0) Fail(key, "expected a whole number; allowed: 0 ... 9223372036854775807");
+  value = *number;
+}
+
+void Reader::Boolean(const char* key, bool& value, const char*) {
+  const toml::node* node = Get(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) Fail(key, "allowed: true, false");
+  value = *node->value<bool>();
+}
+
+void Reader::Text(const char* key, std::string& value, const char*) {
+  const toml::node* node = Get(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) Fail(key, "expected a text in quotes");
+  value = *node->value<std::string>();
+}
+
+void Reader::Numbers(const char* key, std::vector<double>& value, Bound bound, const char*) {
+  toml::node* node = Get(key);
+  if (node == nullptr) return;
+  value.clear();
+  if (const toml::array* array = node->as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i)
+      value.push_back(CheckedNumber((*array)[i], std::string(key) + "[" + std::to_string(i) + "]", bound));
+  } else {
+    value.push_back(CheckedNumber(*node, key, bound));
+  }
+}
+
+void Reader::Vector(const char* key, Eigen::Vector3d& value, Bound bound, const char* doc) {
+  if (!Has(key)) {
+    known_.emplace_back(key);
+    return;
+  }
+  std::vector<double> numbers;
+  Numbers(key, numbers, bound, doc);
+  if (numbers.size() != 3) Fail(key, "expected three numbers [x, y, z] in " + std::string(bound.unit));
+  value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+}
+
+void Reader::ChoiceIndex(const char* key, int& index, const std::vector<std::string>& allowed, const char*) {
+  const toml::node* node = Get(key);
+  if (node == nullptr) return;
+  const auto text = node->value_exact<std::string>();
+  const auto found = text ? std::find(allowed.begin(), allowed.end(), *text) : allowed.end();
+  if (found == allowed.end()) {
+    std::string list;
+    for (const std::string& name : allowed) list += (list.empty() ? "" : ", ") + name;
+    Fail(key, (text ? "'" + *text + "' is unknown" : std::string("expected a text")) + "; allowed: " + list);
+  }
+  index = static_cast<int>(found - allowed.begin());
+}
+
+void Reader::RefuseUnknown() const {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    std::string list;
+    for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
+    doc_.Fail(&node, KeyName(std::string(key.str())), "unknown key; allowed: " + list);
+  }
+}
+
+}  // namespace reed

@@ -1,0 +1,145 @@
+#include "config/schema/rules.h"
+
+#include <cmath>
+
+#include "config/schema/bound.h"
+
+namespace reed {
+namespace {
+
+class Rules {
+ public:
+  Rules(const Document& doc, const Scenario& s) : doc_(doc), s_(s) {}
+
+  void Sizes() const {
+    PerJoint("reference.start_rad", s_.reference.start_rad, true);
+    PerJoint("control.K_d", s_.control.K_d, true);
+    PerJoint("control.Lambda", s_.control.Lambda, true);
+    for (std::size_t i = 0; i < s_.reference.legs.size(); ++i) {
+      const ReferenceLeg& leg = s_.reference.legs[i];
+      const std::string key = "reference.legs[" + std::to_string(i) + "].";
+      if (leg.duration_s <= 0.0) Fail(key + "duration_s", "missing; s");
+      if (leg.kind == ReferenceLeg::Kind::kJoint) PerJoint(key + "to_rad", leg.to_rad, true);
+      if (leg.kind == ReferenceLeg::Kind::kSine) PerJoint(key + "amplitude_rad", leg.amplitude_rad, true);
+    }
+    if (!s_.control.p_initial.empty() && s_.control.p_initial.size() != s_.arm.parameters.size())
+      Fail("control.p_initial", std::to_string(s_.control.p_initial.size()) + " numbers for " +
+                                    std::to_string(s_.arm.parameters.size()) + " parameters");
+  }
+
+  /// A run needs what a drawing of the arm does not: motors, limits, stiffness.
+  void ArmIsComplete() const {
+    if (s_.arm.dof() < 2) Fail("arm.dh", "a run needs 2 ... " + std::to_string(kMaxJoints) + " joints");
+    Present("arm.rotor_inertia_reflected", s_.arm.rotor_inertia_kgm2);
+    Present("arm.joint_stiffness", s_.arm.joint_stiffness_Nmprad);
+    Present("arm.torque_limit", s_.arm.torque_limit_Nm);
+    Present("arm.position_min", s_.arm.position_min_rad);
+    Present("arm.speed_limit", s_.arm.speed_limit_radps);
+    if (s_.plant.flexible_links && s_.arm.sections.empty())
+      Fail("arm.sections",
+           "missing; flexible links need one per straight member, or set plant.flexible_links = false");
+  }
+
+  void StartInsideLimits() const {
+    for (std::size_t i = 0; i < s_.reference.start_rad.size(); ++i) {
+      const double lo = s_.arm.position_min_rad[i] + s_.limits.position_margin_rad;
+      const double hi = s_.arm.position_max_rad[i] - s_.limits.position_margin_rad;
+      const double start = s_.reference.start_rad[i];
+      if (start < lo || start > hi)
+        Fail("reference.start_rad", "joint " + std::to_string(i + 1) + ": " + ToText(start) +
+                                        " rad is beyond its limit; allowed: " + ToText(lo) + " ... " +
+                                        ToText(hi) + " rad");
+    }
+  }
+
+  void BoxHoldsStart() const {
+    for (std::size_t k = 0; k < s_.control.p_initial.size(); ++k) {
+      const StructuralParameter& p = s_.arm.parameters[k];
+      if (s_.control.p_initial[k] < p.lo || s_.control.p_initial[k] > p.hi)
+        Fail("control.p_initial", p.name + ": start " + ToText(s_.control.p_initial[k]) +
+                                      " lies outside the box " + ToText(p.lo) + " ... " + ToText(p.hi));
+    }
+  }
+
+  /// s = 0 of the force loop is stable iff k_i < a k_p (30).
+  void ForceLoopIsStable() const {
+    if (s_.force.source == ForceConfig::Source::kNone || s_.control.k_i == 0.0) return;
+    if (s_.control.k_i >= s_.control.a_force * s_.control.k_p)
+      Fail("control.k_i", "rule k_i < a_force k_p: " + ToText(s_.control.k_i) + " is not below " +
+                              ToText(s_.control.a_force * s_.control.k_p) + " m/(s²·N)");
+  }
+
+  /// One sample of delay: K_d + sigma_0max + sigma_1max/phi stays below 0.6 J_m/T, or the switching term
+  /// chatters.
+  void NoChatter() const {
+    constexpr double kLimit = 0.6;
+    for (std::size_t i = 0; i < s_.control.K_d.size(); ++i) {
+      const double scale = s_.control.K_d[i] / 10.0;
+      const double damping =
+          s_.control.K_d[i] + scale * (s_.control.sigma0_max + s_.control.sigma1_max / s_.control.phi);
+      const double bound = kLimit * s_.arm.rotor_inertia_kgm2[i] * s_.timing.rate_hz;
+      if (damping > bound)
+        Fail("control.K_d", "joint " + std::to_string(i + 1) +
+                                ": rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate: " +
+                                ToText(damping) + " is above " + ToText(bound) + " N·m·s/rad");
+    }
+  }
+
+  void WallIsMeaningful() const {
+    const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
+    if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
+    if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
+    double reach = s_.arm.tool_offset_m.norm();
+    for (const DhRow& row : s_.arm.dh) reach += std::hypot(row.a_m, row.d_m);
+    const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
+    if (s_.wall.present && distance > reach)
+      Fail("wall.point_m",
+           "the wall is " + ToText(distance) + " m away, the arm reaches " + ToText(reach) + " m");
+  }
+
+  void BudgetsAddUp() const {
+    const double sum = s_.timing.rx_budget_us + s_.timing.compute_budget_us + s_.timing.tx_budget_us;
+    const double period = 1e6 / s_.timing.rate_hz;
+    if (sum > period * (1.0 + 1e-9))
+      Fail("timing.rx_budget_us",
+           "rx + compute + tx budgets are " + ToText(sum) + " µs, the period is " + ToText(period) + " µs");
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& key, const std::string& problem) const {
+    // Find where the key was written, so that the line can be named.
+    const toml::node* where = nullptr;
+    std::string path;
+    for (const char c : key) path += c;
+    const auto view = const_cast<Document&>(doc_).root().at_path(path);
+    where = view.node();
+    doc_.Fail(where, key, problem);
+  }
+  void PerJoint(const std::string& key, const std::vector<double>& list, bool needed) const {
+    if (list.empty() && needed) Fail(key, "missing; one number per joint");
+    if (!list.empty() && list.size() != s_.arm.dh.size())
+      Fail(key, std::to_string(list.size()) + " numbers for " + std::to_string(s_.arm.dof()) + " joints");
+  }
+  void Present(const std::string& key, const std::vector<double>& list) const {
+    if (list.empty()) Fail(key, "missing; a run needs one number per joint");
+  }
+
+  const Document& doc_;
+  const Scenario& s_;
+};
+
+}  // namespace
+
+void CheckRules(const Document& doc, const Scenario& scenario) {
+  const Rules rules(doc, scenario);
+  rules.ArmIsComplete();
+  rules.Sizes();
+  rules.StartInsideLimits();
+  rules.BoxHoldsStart();
+  rules.ForceLoopIsStable();
+  rules.NoChatter();
+  rules.WallIsMeaningful();
+  rules.BudgetsAddUp();
+}
+
+}  // namespace reed

@@ -1,0 +1,183 @@
+// The schema of a scenario: every key once, with unit, bound and meaning. Reader, writer and lister all walk
+// this.
+#pragma once
+
+#include "config/schema/bound.h"
+#include "config/schema/scenario.h"
+
+namespace reed {
+
+inline constexpr const char* kForceSources[] = {"none", "known", "unknown", "auto"};
+inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine"};
+
+template <typename V>
+void Fields(V& v, PlantConfig& c) {
+  v.Boolean("flexible_links", c.flexible_links, "links bend; false: rigid links, elastic joints");
+  v.Integer("elements_per_link", c.elements_per_link, {"1", 1, 8}, "beam elements per straight member");
+  v.Number("damping_ratio", c.damping_ratio, {"1", 0, 0.2}, "structural damping ratio");
+  v.Number("max_step_s", c.max_step_s, {"s", 1e-6, 1e-2}, "largest integration step");
+  v.Number("stiffness_scale", c.stiffness_scale, {"1", 1e-3, 1e6},
+           "scales the stiffness of joints and links");
+  v.Number("joint_stiffness_scale", c.joint_stiffness_scale, {"1", 1e-3, 1e6},
+           "scales the stiffness of joints");
+  v.Number("friction_scale", c.friction_scale, {"1", 0, 100}, "scales viscous and Coulomb friction");
+  v.Number("payload_step_kg", c.payload_step_kg, {"kg", 0, 100}, "point mass that appears at the tool point");
+  v.Number("payload_step_s", c.payload_step_s, {"s", 0, 3600},
+           "when it appears, after the drives were enabled");
+}
+
+template <typename V>
+void Fields(V& v, DriveConfig& c) {
+  v.Integer("torque_bits", c.torque_bits, {"1", 8, 32},
+            "resolution of the torque over plus/minus the torque limit");
+  v.Integer("command_timeout_cycles", c.command_timeout_cycles, {"1", 1, 1000},
+            "periods without a valid command before the brakes close");
+}
+
+template <typename V>
+void Fields(V& v, SensorConfig& c) {
+  v.Integer("encoder_bits", c.encoder_bits, {"1", 8, 32}, "steps per turn are 2^bits");
+  v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 1, 1e5},
+           "first-order low pass on the differentiated encoder");
+  v.Number("force_noise_N", c.force_noise_N, {"N", 0, 100}, "standard deviation per axis");
+  v.Number("force_quantum_N", c.force_quantum_N, {"N", 0, 10}, "step of the force reading");
+  v.Number("moment_noise_Nm", c.moment_noise_Nm, {"N·m", 0, 100}, "standard deviation per axis");
+  v.Number("moment_quantum_Nm", c.moment_quantum_Nm, {"N·m", 0, 10}, "step of the moment reading");
+  v.Vector("force_bias_N", c.force_bias_N, {"N", -100, 100},
+           "constant error of the force reading, base axes");
+  v.Number("force_range_N", c.force_range_N, {"N", 1, 1e4}, "the reading saturates here");
+  v.Number("wrench_lost_from_s", c.wrench_lost_from_s, {"s", -1, 3600},
+           "no wrench frames from here, after the drives were enabled; -1: never");
+  v.Number("wrench_lost_to_s", c.wrench_lost_to_s, {"s", -1, 3600},
+           "wrench frames again from here; -1: never");
+}
+
+template <typename V>
+void Fields(V& v, WallConfig& c) {
+  v.Boolean("present", c.present, "there is a wall");
+  v.Vector("point_m", c.point_m, {"m", -10, 10},
+           "a point of the surface as the controller believes it, base frame");
+  v.Vector("normal", c.normal, {"1", -1, 1}, "outward normal, wall to robot; normalised on reading");
+  v.Number("offset_m", c.offset_m, {"m", -0.1, 0.1},
+           "true surface lies this far along the normal from the believed one");
+  v.Number("stiffness_Npm", c.stiffness_Npm, {"N/m", 10, 1e7},
+           "of the true wall; the controller does not know it");
+  v.Number("damping_Nspm", c.damping_Nspm, {"N·s/m", 0, 1e5}, "of the true wall");
+  v.Number("friction", c.friction, {"1", 0, 2}, "Coulomb coefficient");
+  v.Number("friction_speed_mps", c.friction_speed_mps, {"m/s", 1e-5, 1},
+           "sliding speed at which friction is fully developed");
+}
+
+template <typename V>
+void Fields(V& v, DisturbanceConfig& c) {
+  v.Vector("bias_N", c.bias_N, {"N", -500, 500},
+           "constant force on the tool point, base frame, nobody measures it");
+  v.Vector("amplitude_N", c.amplitude_N, {"N", -500, 500}, "of each sinusoid per axis");
+  v.Numbers("frequencies_hz", c.frequencies_hz, {"Hz", 0, 200},
+            "one sinusoid per entry, phases from the seed");
+  v.Vector("step_N", c.step_N, {"N", -500, 500}, "added from step_s on");
+  v.Number("step_s", c.step_s, {"s", -1, 3600}, "after the drives were enabled; -1: no step");
+}
+
+template <typename V>
+void Fields(V& v, ReferenceLeg& c) {
+  v.Choice("kind", c.kind, kLegKinds, "hold | joint | cartesian | slide | sine");
+  v.Number("duration_s", c.duration_s, {"s", 1e-3, 3600}, "of the leg");
+  v.Numbers("to_rad", c.to_rad, {"rad", -6.3, 6.3}, "joint: minimum-jerk move to these angles");
+  v.Vector(
+      "by_m", c.by_m, {"m", -5, 5},
+      "cartesian: minimum-jerk displacement of the tool point, orientation kept as far as the joints allow");
+  v.Vector("amplitude_m", c.amplitude_m, {"m", -1, 1},
+           "slide: sinusoid of the tool point about the start of the leg");
+  v.Number("frequency_hz", c.frequency_hz, {"Hz", 0, 50}, "slide, sine");
+  v.Numbers("amplitude_rad", c.amplitude_rad, {"rad", -3.2, 3.2},
+            "sine: per joint, about the start of the leg");
+}
+
+template <typename V>
+void Fields(V& v, ForceConfig& c) {
+  v.Choice("source", c.source, kForceSources,
+           "none | known (wrench) | unknown | auto (by the wrench's freshness)");
+  v.Number("desired_N", c.desired_N, {"N", 0, 500}, "normal force F_d after the ramp");
+  v.Number("start_s", c.start_s, {"s", 0, 3600}, "the reference force ramps up from here");
+  v.Number("ramp_s", c.ramp_s, {"s", 1e-3, 60}, "length of the ramps");
+  v.Number("end_s", c.end_s, {"s", 0, 1e9}, "and down from here");
+  v.Number("contact_threshold_N", c.contact_threshold_N, {"N", 0.05, 100},
+           "a larger normal force latches force mode");
+}
+
+template <typename V>
+void Fields(V& v, ControlConfig& c) {
+  v.Text("law", c.law,
+         "separated | pd | pd_tuned | computed_torque | fixed_nominal | paper_printed | paper_corrected");
+  v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4}, "gain on s (31), per joint");
+  v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500}, "sliding surface (23), per joint");
+  v.Number("Gamma_known", c.Gamma_known, {"1", 0, 1e4}, "adaptation gain of the known-force law (34)");
+  v.Number("Gamma_unknown", c.Gamma_unknown, {"1", 0, 1e4}, "adaptation gain of the unknown-force law (39)");
+  v.Number("k_p", c.k_p, {"m/(s·N)", 0, 1}, "force loop, proportional (30)");
+  v.Number("k_i", c.k_i, {"m/(s²·N)", 0, 100}, "force loop, integral (30); k_i < a_force k_p");
+  v.Number("a_force", c.a_force, {"1/s", 1, 1e4}, "force loop filter");
+  v.Number("normal_speed_limit_mps", c.normal_speed_limit_mps, {"m/s", 1e-4, 1},
+           "of the force loop, with anti-windup");
+  v.Boolean("estimate_wall_stiffness", c.estimate_wall_stiffness, "k_p follows the estimated wall stiffness");
+  v.Number("sigma0_gain", c.sigma0_gain, {"1", 0, 1e4}, "c_0 (40)");
+  v.Number("sigma1_gain", c.sigma1_gain, {"1", 0, 1e4}, "c_1 (41)");
+  v.Number("sigma0_max", c.sigma0_max, {"N·m·s/rad", 0, 1e4}, "bound of sigma_0 for a joint with K_d = 10");
+  v.Number("sigma1_max", c.sigma1_max, {"N·m", 0, 1e3}, "bound of sigma_1 for a joint with K_d = 10");
+  v.Number("phi", c.phi, {"rad/s", 1e-4, 10}, "boundary layer of sat(s/phi)");
+  v.Number("dead_zone_radps", c.dead_zone_radps, {"rad/s", 0, 1}, "no adaptation for smaller s");
+  v.Number("leak_p", c.leak_p, {"1/s", 0, 100}, "p_hat leaks toward its start");
+  v.Number("leak_sigma", c.leak_sigma, {"1/s", 0, 100}, "sigma leaks toward 0");
+  v.Number("observer_gain", c.observer_gain, {"1/s", 0, 1e3}, "K_o of the momentum observer");
+  v.Boolean("observer", c.observer, "subtract the observed disturbance in free motion");
+  v.Boolean("nodal_compensation", c.nodal_compensation,
+            "theta_d after nodal displacement (22); false: theta_d = plan");
+  v.Numbers("p_initial", c.p_initial, {"1", -1e3, 1e3}, "start of p_hat; absent: the arm's p_nom");
+  v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 0, 1e4},
+           "extra first-order filter on the measured velocity; 0: none");
+}
+
+template <typename V>
+void Fields(V& v, LimitConfig& c) {
+  v.Number("torque_scale", c.torque_scale, {"1", 0.01, 1}, "of the arm's torque limit");
+  v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 1, 1e7}, "largest change of a commanded torque");
+  v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
+           "distance to the joint limit that trips");
+  v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
+  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4}, "measured force magnitude that trips");
+  v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},
+            "measurements up to this age are used as they are");
+  v.Integer("stop_age_cycles", c.stop_age_cycles, {"1", 1, 1000},
+            "older: torque ramps down; twice this age: fault");
+}
+
+template <typename V>
+void Fields(V& v, TimingConfig& c) {
+  v.Number("rate_hz", c.rate_hz, {"Hz", 50, 8000}, "control rate");
+  v.Number("rx_budget_us", c.rx_budget_us, {"µs", 1, 20000},
+           "receive phase: SYNC sent to measurements taken");
+  v.Number("compute_budget_us", c.compute_budget_us, {"µs", 1, 20000}, "compute phase");
+  v.Number("tx_budget_us", c.tx_budget_us, {"µs", 1, 20000}, "transmit phase");
+  v.Integer("max_missed_in_row", c.max_missed_in_row, {"1", 1, 1000}, "more missed cycles in a row: fault");
+  v.Integer("priority", c.priority, {"1", 1, 98}, "SCHED_FIFO priority of the loop");
+  v.Integer("cpu", c.cpu, {"1", -1, 1023}, "core of the loop; -1: any");
+  v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023}, "core of the plant; -1: any");
+}
+
+template <typename V>
+void Fields(V& v, CheckConfig& c) {
+  v.Text("name", c.name, "figure that is checked");
+  v.Number("limit", c.limit, {"unit of the figure", -1e9, 1e9}, "largest value that passes");
+}
+
+template <typename V>
+void ScenarioFields(V& v, Scenario& c) {
+  v.Text("name", c.name, "of the scenario");
+  v.Text("description", c.description, "one sentence");
+  v.Number("duration_s", c.duration_s, {"s", 0.01, 3600}, "from the moment the arm is active");
+  v.Seed("seed", c.seed, "of every random number in the run");
+  v.Boolean("allow_wire_overload", c.allow_wire_overload,
+            "run a schedule that a 1/5 Mbit/s wire could not carry");
+}
+
+}  // namespace reed

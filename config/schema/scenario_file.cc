@@ -1,0 +1,163 @@
+#include "config/schema/scenario_file.h"
+
+#include <sstream>
+
+#include "config/schema/arm_file.h"
+#include "config/schema/reader.h"
+#include "config/schema/rules.h"
+#include "config/schema/scenario_fields.h"
+#include "config/schema/writer.h"
+
+namespace reed {
+namespace {
+
+toml::table* Section(Document& doc, const std::string& name) {
+  toml::node* node = doc.root().get(name);
+  if (node == nullptr) return nullptr;
+  if (!node->is_table()) doc.Fail(node, name, "expected a section [" + name + "]");
+  return node->as_table();
+}
+
+template <typename Config>
+void ReadSection(Document& doc, const std::string& name, Config& config) {
+  Reader reader(doc, Section(doc, name), name);
+  Fields(reader, config);
+  reader.RefuseUnknown();
+}
+
+template <typename Item>
+void ReadList(Document& doc, toml::node* node, const std::string& name, std::vector<Item>& items) {
+  if (node == nullptr) return;
+  toml::array* array = node->as_array();
+  if (array == nullptr) doc.Fail(node, name, "expected a list of tables [[" + name + "]]");
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string key = name + "[" + std::to_string(i) + "]";
+    toml::table* table = (*array)[i].as_table();
+    if (table == nullptr) doc.Fail(&(*array)[i], key, "expected a table");
+    Reader reader(doc, table, key);
+    Item item;
+    Fields(reader, item);
+    reader.RefuseUnknown();
+    items.push_back(item);
+  }
+}
+
+void ReadReference(Document& doc, ReferenceConfig& reference) {
+  Reader reader(doc, Section(doc, "reference"), "reference");
+  reader.Numbers("start_rad", reference.start_rad, {"rad", -6.3, 6.3}, "");
+  ReadList(doc, reader.Get("legs"), "reference.legs", reference.legs);
+  reader.RefuseUnknown();
+}
+
+/// [arm] is a name, a path, or the whole description inline (as in effective.toml).
+void ResolveArm(Document& doc, const std::string& wanted) {
+  toml::node* node = doc.root().get("arm");
+  if (wanted.empty() && node != nullptr && node->is_table()) return;
+  std::string name = wanted;
+  if (name.empty()) {
+    if (node == nullptr) doc.Fail(nullptr, "arm", "missing; a name in config/arms or a path");
+    if (!node->is_string()) doc.Fail(node, "arm", "expected a name in config/arms or a path");
+    name = *node->value<std::string>();
+  }
+  std::string path;
+  try {
+    path = FindConfig("arms", name);
+  } catch (const ConfigError& error) {
+    if (wanted.empty()) doc.Fail(node, "arm", error.what());
+    throw ConfigError(std::string("--arm ") + wanted + ": " + error.what());
+  }
+  doc.Graft("arm", Document::Load(path));
+}
+
+void RefuseUnknownSections(Document& doc) {
+  const std::vector<std::string> sections{"scenario", "arm",         "plant",     "drives", "sensors",
+                                          "wall",     "disturbance", "reference", "force",  "control",
+                                          "limits",   "timing",      "checks"};
+  for (const auto& [key, node] : doc.root()) {
+    if (std::find(sections.begin(), sections.end(), key.str()) != sections.end()) continue;
+    std::string list;
+    for (const std::string& name : sections) list += (list.empty() ? "" : ", ") + name;
+    doc.Fail(&node, std::string(key.str()), "unknown section; allowed: " + list);
+  }
+}
+
+/// One number for all joints becomes one per joint.
+void Spread(std::vector<double>& list, int dof) {
+  if (list.size() == 1) list.assign(static_cast<std::size_t>(dof), list[0]);
+}
+
+}  // namespace
+
+Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options) {
+  Document doc = Document::Load(FindConfig("scenarios", name_or_path));
+  ResolveArm(doc, options.arm);
+  for (const std::string& assignment : options.set) doc.Override(assignment);
+  RefuseUnknownSections(doc);
+
+  Scenario s;
+  Reader head(doc, Section(doc, "scenario"), "scenario");
+  ScenarioFields(head, s);
+  head.RefuseUnknown();
+  s.arm = ReadArm(doc, *Section(doc, "arm"), "arm");
+  ReadSection(doc, "plant", s.plant);
+  ReadSection(doc, "drives", s.drives);
+  ReadSection(doc, "sensors", s.sensors);
+  ReadSection(doc, "wall", s.wall);
+  ReadSection(doc, "disturbance", s.disturbance);
+  ReadReference(doc, s.reference);
+  ReadSection(doc, "force", s.force);
+  ReadSection(doc, "control", s.control);
+  ReadSection(doc, "limits", s.limits);
+  ReadSection(doc, "timing", s.timing);
+  ReadList(doc, doc.root().get("checks"), "checks", s.checks);
+
+  Spread(s.control.K_d, s.arm.dof());
+  Spread(s.control.Lambda, s.arm.dof());
+  Spread(s.reference.start_rad, s.arm.dof());
+  CheckRules(doc, s);
+  s.wall.normal.normalize();
+  return s;
+}
+
+std::string EffectiveToml(const Scenario& scenario) {
+  Scenario s = scenario;  // visitors take references; the writer only reads
+  toml::table root;
+  const auto section = [&](const char* name, auto& config) {
+    toml::table table;
+    Writer writer(table);
+    Fields(writer, config);
+    root.insert(name, std::move(table));
+  };
+  const auto list = [](auto& items) {
+    toml::array out;
+    for (auto& item : items) {
+      toml::table table;
+      Writer writer(table);
+      Fields(writer, item);
+      out.push_back(std::move(table));
+    }
+    return out;
+  };
+  toml::table head;
+  Writer writer(head);
+  ScenarioFields(writer, s);
+  root.insert("scenario", std::move(head));
+  root.insert("arm", WriteArm(s.arm));
+  section("plant", s.plant);
+  section("drives", s.drives);
+  section("sensors", s.sensors);
+  section("wall", s.wall);
+  section("disturbance", s.disturbance);
+  root.insert("reference",
+              toml::table{{"start_rad", ToToml(s.reference.start_rad)}, {"legs", list(s.reference.legs)}});
+  section("force", s.force);
+  section("control", s.control);
+  section("limits", s.limits);
+  section("timing", s.timing);
+  root.insert("checks", list(s.checks));
+  std::ostringstream out;
+  out << root << '\n';
+  return out.str();
+}
+
+}  // namespace reed
