@@ -1,0 +1,86 @@
+#include "bus/datagram_batch.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+namespace reed::bus {
+
+ReceiveBatch::ReceiveBatch() {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    Slot& slot = slots_[i];
+    slot.vector = {slot.bytes.data(), slot.bytes.size()};
+    headers_[i].msg_hdr.msg_iov = &slot.vector;
+    headers_[i].msg_hdr.msg_iovlen = 1;
+    headers_[i].msg_hdr.msg_name = &slot.source;
+    headers_[i].msg_hdr.msg_control = slot.control.data();
+  }
+}
+
+int ReceiveBatch::Receive(int fd, int limit) noexcept {
+  const int count = std::min(limit, kMaxBatch);
+  for (int i = 0; i < count; ++i) {
+    msghdr& header = headers_[static_cast<std::size_t>(i)].msg_hdr;
+    header.msg_namelen = sizeof(sockaddr_in);
+    header.msg_controllen = sizeof(Slot::control);
+  }
+  int received = 0;
+  do {
+    received = recvmmsg(fd, headers_.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
+  } while (received < 0 && errno == EINTR);
+  if (received < 0) return errno == EAGAIN ? 0 : -errno;
+  for (int i = 0; i < received; ++i) ReadOverflow(headers_[static_cast<std::size_t>(i)].msg_hdr);
+  return received;
+}
+
+Datagram ReceiveBatch::operator[](int i) const noexcept {
+  const auto n = static_cast<std::size_t>(i);
+  const Slot& slot = slots_[n];
+  return {std::span(slot.bytes).first(std::min<std::size_t>(headers_[n].msg_len, kSlotBytes)), slot.source,
+          (headers_[n].msg_hdr.msg_flags & MSG_TRUNC) != 0};
+}
+
+void ReceiveBatch::ReadOverflow(msghdr& header) noexcept {
+  const cmsghdr* control = CMSG_FIRSTHDR(&header);
+  if (control == nullptr || control->cmsg_level != SOL_SOCKET || control->cmsg_type != SO_RXQ_OVFL) return;
+  std::uint32_t total = 0;
+  std::memcpy(&total, CMSG_DATA(control), sizeof total);
+  overflowed_ += total - last_overflow_;  // modulo 2^32
+  last_overflow_ = total;
+}
+
+SendBatch::SendBatch() {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    vectors_[i] = {slots_[i].data(), 0};
+    headers_[i].msg_hdr.msg_iov = &vectors_[i];
+    headers_[i].msg_hdr.msg_iovlen = 1;
+  }
+}
+
+int SendBatch::Send(int fd, int count) noexcept {
+  int sent = 0;
+  do {
+    sent = sendmmsg(fd, headers_.data(), static_cast<unsigned>(count), MSG_DONTWAIT | MSG_NOSIGNAL);
+  } while (sent < 0 && errno == EINTR);
+  return sent < 0 ? -errno : sent;
+}
+
+bool WaitReadable(int fd, std::int64_t deadline_ns) noexcept {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  while (true) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::int64_t left_ns = deadline_ns - (now.tv_sec * kSecond_ns + now.tv_nsec);
+    if (left_ns <= 0) return false;
+    const timespec timeout{left_ns / kSecond_ns, left_ns % kSecond_ns};
+    pollfd entry{fd, POLLIN, 0};
+    const int ready = ppoll(&entry, 1, &timeout, nullptr);
+    if (ready > 0) return true;
+    if (ready < 0 && errno != EINTR) return false;
+  }
+}
+
+}  // namespace reed::bus

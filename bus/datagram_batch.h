@@ -1,0 +1,79 @@
+// Many datagrams with one system call, for both transports. All memory is here; nothing is allocated later.
+// RT: safe after construction.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace reed::bus {
+
+inline constexpr int kMaxBatch = 32;
+
+struct Datagram {
+  std::span<const std::uint8_t> bytes;  // valid until the next Receive
+  sockaddr_in source{};                 // of AF_INET sockets
+  bool truncated = false;               // it was longer than a slot
+};
+
+class ReceiveBatch {
+ public:
+  static constexpr std::size_t kSlotBytes = 512;  // a 64-byte frame in msgpack is 231 bytes
+
+  ReceiveBatch();
+  ReceiveBatch(const ReceiveBatch&) = delete;  // the headers point into the object
+  ReceiveBatch& operator=(const ReceiveBatch&) = delete;
+
+  /// At most min(`limit`, kMaxBatch) datagrams, without waiting. Returns their number, 0 if none, or -errno.
+  int Receive(int fd, int limit) noexcept;
+  Datagram operator[](int i) const noexcept;
+
+  /// Datagrams that the kernel dropped because the receive queue was full (SO_RXQ_OVFL), since the socket was
+  /// opened.
+  std::uint64_t overflowed() const noexcept { return overflowed_; }
+
+ private:
+  struct alignas(8) Slot {
+    std::array<std::uint8_t, kSlotBytes> bytes;
+    std::array<std::uint8_t, CMSG_SPACE(sizeof(std::uint32_t))> control;
+    sockaddr_in source;
+    iovec vector;
+  };
+  void ReadOverflow(msghdr& header) noexcept;
+
+  std::array<Slot, kMaxBatch> slots_{};
+  std::array<mmsghdr, kMaxBatch> headers_{};
+  std::uint32_t last_overflow_ = 0;  // the kernel's counter is 32 bits wide
+  std::uint64_t overflowed_ = 0;
+};
+
+class SendBatch {
+ public:
+  static constexpr std::size_t kSlotBytes = 256;
+
+  SendBatch();
+  SendBatch(const SendBatch&) = delete;
+  SendBatch& operator=(const SendBatch&) = delete;
+
+  std::span<std::uint8_t, kSlotBytes> slot(int i) noexcept { return slots_[static_cast<std::size_t>(i)]; }
+  void set_size(int i, std::size_t bytes) noexcept { vectors_[static_cast<std::size_t>(i)].iov_len = bytes; }
+
+  /// Sends slots 0 .. count-1 in order on a connected or bound socket, without waiting. Returns how many the
+  /// kernel took, or -errno if it took none.
+  int Send(int fd, int count) noexcept;
+
+ private:
+  std::array<std::array<std::uint8_t, kSlotBytes>, kMaxBatch> slots_{};
+  std::array<iovec, kMaxBatch> vectors_{};
+  std::array<mmsghdr, kMaxBatch> headers_{};
+};
+
+/// Waits until `fd` is readable (or has an error to report); false if CLOCK_MONOTONIC passed `deadline_ns`
+/// first.
+bool WaitReadable(int fd, std::int64_t deadline_ns) noexcept;
+
+}  // namespace reed::bus

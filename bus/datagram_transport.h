@@ -1,0 +1,45 @@
+// What both transports do alike: one datagram is one frame, batches in and out, waiting up to a deadline,
+// counting. A transport adds how its sockets are opened and how a frame looks in a datagram. RT: safe after
+// construction.
+#pragma once
+
+#include <span>
+
+#include "bus/datagram_batch.h"
+#include "bus/file_descriptor.h"
+#include "bus/transport.h"
+
+namespace reed::bus {
+
+class DatagramTransport : public Transport {
+ public:
+  int Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept final;
+  int Send(std::span<const Frame> frames) noexcept final;
+  bool alive() const noexcept final { return alive_; }
+  const TransportCounters& counters() const noexcept final { return counters_; }
+
+ protected:
+  /// Takes both sockets; they may be the same descriptor's number for a transport with one socket.
+  void Use(int receive_fd, int send_fd) noexcept;
+  TransportCounters& counters() noexcept { return counters_; }
+  void BusLost() noexcept { alive_ = false; }
+
+ private:
+  /// Reads one datagram; false (and counted) if it holds no frame for us.
+  virtual bool Read(const Datagram& datagram, Frame& out) noexcept = 0;
+  /// Writes `frame` as one datagram; returns its size.
+  virtual std::size_t Write(const Frame& frame,
+                            std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept = 0;
+
+  int Drain(std::span<Frame> out) noexcept;
+  void NoteError(int error) noexcept;
+
+  int receive_fd_ = -1;
+  int send_fd_ = -1;
+  bool alive_ = true;
+  ReceiveBatch received_;
+  SendBatch sending_;
+  TransportCounters counters_;
+};
+
+}  // namespace reed::bus

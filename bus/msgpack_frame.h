@@ -1,0 +1,29 @@
+// One CAN FD frame as python-can's udp_multicast interface writes it: a msgpack map of 11 keys (timestamp,
+// arbitration_id, is_extended_id, is_remote_frame, is_error_frame, channel, dlc, data, is_fd, bitrate_switch,
+// error_state_indicator). No heap. RT: safe.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "bus/frame.h"
+
+namespace reed::bus {
+
+inline constexpr std::size_t kMaxPackedFrame = 256;  // 231 bytes for a 64-byte payload
+
+/// Writes `frame` and returns the bytes used. `timestamp_s`: Unix time. Pre: frame.size <= 64.
+std::size_t PackFrame(const Frame& frame, double timestamp_s,
+                      std::span<std::uint8_t, kMaxPackedFrame> out) noexcept;
+
+enum class Unpacked : std::uint8_t {
+  kFrame,       // a CAN FD data frame with an 11-bit identifier
+  kErrorFrame,  // a CAN controller reported an error
+  kMalformed,   // anything else
+};
+
+/// Accepts every integer, float, string and binary width of msgpack and keys in any order.
+Unpacked UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept;
+
+}  // namespace reed::bus

@@ -1,0 +1,15 @@
+// The one place that turns a user's bus name into a transport. RT: set-up only.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "bus/transport.h"
+
+namespace reed::bus {
+
+/// `name`: "socketcan:IFACE", "udp" or "udp:GROUP:PORT". Throws std::runtime_error with one line: what,
+/// where, and the fix or what is allowed.
+std::unique_ptr<Transport> OpenTransport(std::string_view name);
+
+}  // namespace reed::bus

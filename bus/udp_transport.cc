@@ -1,0 +1,139 @@
+#include "bus/udp_transport.h"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <linux/filter.h>
+#include <net/if.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <stdexcept>
+
+#include "bus/msgpack_frame.h"
+#include "bus/socket_options.h"
+
+namespace reed::bus {
+namespace {
+
+[[noreturn]] void Fail(const UdpAddress& address, const std::string& what, const std::string& fix) {
+  throw std::runtime_error("udp:" + address.group + ":" + std::to_string(address.port) + ": " + what +
+                           "; fix: " + fix);
+}
+
+[[noreturn]] void FailNoRoute(const UdpAddress& address) {
+  Fail(address, std::string("no multicast on loopback (") + std::strerror(errno) + ")",
+       "sudo ip link set lo up multicast on; sudo ip route add 224.0.0.0/4 dev lo");
+}
+
+const sockaddr* Generic(const sockaddr_in& address) { return reinterpret_cast<const sockaddr*>(&address); }
+
+sockaddr_in Parse(const UdpAddress& address) {
+  sockaddr_in out{};
+  out.sin_family = AF_INET;
+  out.sin_port = htons(address.port);
+  if (inet_pton(AF_INET, address.group.c_str(), &out.sin_addr) != 1 ||
+      !IN_MULTICAST(ntohl(out.sin_addr.s_addr)) || address.port == 0) {
+    Fail(address, "not a multicast address and port",
+         "give GROUP:PORT with 224.0.0.0 <= GROUP <= 239.255.255.255");
+  }
+  return out;
+}
+
+FileDescriptor OpenSocket(const UdpAddress& address) {
+  FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (fd.get() < 0) Fail(address, std::string("no UDP socket: ") + std::strerror(errno), "enable IPv4");
+  return fd;
+}
+
+ip_mreqn OnLoopback(in_addr group) {
+  ip_mreqn request{};
+  request.imr_multiaddr = group;
+  request.imr_ifindex = static_cast<int>(if_nametoindex("lo"));
+  return request;
+}
+
+/// The kernel drops what comes from our own port before it is queued: own frames neither fill the queue nor
+/// wake the loop. A kernel without socket filters is no loss, since Read compares the port too.
+void DropOwnFrames(int fd, in_port_t own_port) {
+  std::array<sock_filter, 4> program{{BPF_STMT(BPF_LD | BPF_H | BPF_ABS, 0),  // UDP header: source port
+                                      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ntohs(own_port), 0, 1),
+                                      BPF_STMT(BPF_RET | BPF_K, 0), BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFFU)}};
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter);
+}
+
+}  // namespace
+
+UdpTransport::UdpTransport(const UdpAddress& address)
+    : address_(address), send_socket_(OpenSocket(address)), receive_socket_(OpenSocket(address)) {
+  const sockaddr_in group = Parse(address);
+  const int out = send_socket_.get();
+  SetOption(out, IPPROTO_IP, IP_MULTICAST_IF, OnLoopback(group.sin_addr), "multicast on loopback");
+  SetOption(out, IPPROTO_IP, IP_MULTICAST_TTL, 0, "hop limit 0");
+  SetOption(out, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "multicast loop");
+  if (connect(out, Generic(group), sizeof group) < 0) FailNoRoute(address);
+  sockaddr_in own{};
+  socklen_t size = sizeof own;
+  getsockname(out, reinterpret_cast<sockaddr*>(&own), &size);
+  own_port_ = own.sin_port;
+
+  const int in = receive_socket_.get();
+  DropOwnFrames(in, own_port_);
+  SetOption(in, SOL_SOCKET, SO_REUSEADDR, 1, "shared address");
+  SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
+  SetReceiveQueue(in);
+  if (bind(in, Generic(group), sizeof group) < 0) {
+    Fail(address, std::string("cannot bind: ") + std::strerror(errno),
+         "another program owns this port, choose another");
+  }
+  const ip_mreqn membership = OnLoopback(group.sin_addr);
+  if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) < 0) FailNoRoute(address);
+
+  // A tool that joined by another interface still sends from one of this machine's addresses.
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) == 0) {
+    std::size_t count = 0;
+    for (const ifaddrs* i = list; i != nullptr && count < kMaxLocalAddresses; i = i->ifa_next) {
+      if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET) continue;
+      sockaddr_in local{};
+      std::memcpy(&local, i->ifa_addr, sizeof local);
+      local_addresses_[count++] = local.sin_addr.s_addr;
+    }
+    freeifaddrs(list);
+  }
+  Use(in, out);
+}
+
+bool UdpTransport::IsFromThisMachine(const sockaddr_in& source) const noexcept {
+  const in_addr_t address = source.sin_addr.s_addr;
+  return (ntohl(address) >> IN_CLASSA_NSHIFT) == IN_LOOPBACKNET ||
+         (address != 0 &&
+          std::find(local_addresses_.begin(), local_addresses_.end(), address) != local_addresses_.end());
+}
+
+bool UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
+  if (!IsFromThisMachine(datagram.source)) return false;
+  if (datagram.source.sin_port == own_port_) return false;
+  switch (datagram.truncated ? Unpacked::kMalformed : UnpackFrame(datagram.bytes, out)) {
+    case Unpacked::kFrame:
+      return true;
+    case Unpacked::kErrorFrame:
+      ++counters().error_frames;
+      return false;
+    case Unpacked::kMalformed:
+      break;
+  }
+  ++counters().malformed;
+  return false;
+}
+
+std::size_t UdpTransport::Write(const Frame& frame,
+                                std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return PackFrame(frame, static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec), out);
+}
+
+}  // namespace reed::bus
