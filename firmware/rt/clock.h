@@ -1,0 +1,42 @@
+// What the loop knows of time: a reading, and a sleep up to an absolute time. CLOCK_MONOTONIC in ns. RT:
+// safe.
+#pragma once
+
+#include <time.h>
+
+#include <cerrno>
+#include <concepts>
+#include <cstdint>
+
+namespace reed::rt {
+
+template <typename T>
+concept Clock = requires(T clock, std::int64_t deadline_ns) {
+  { clock.NowNs() }
+  noexcept->std::same_as<std::int64_t>;
+  { clock.SleepUntil(deadline_ns) }
+  noexcept->std::same_as<void>;  // returns at once when the deadline has passed
+};
+
+class MonotonicClock {
+ public:
+  std::int64_t NowNs() const noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{now.tv_sec} * kNsPerS + now.tv_nsec;
+  }
+
+  /// Absolute, so that being interrupted or preempted on the way in does not lengthen the sleep. A signal
+  /// does not end it: who wants to stop the loop sets a flag, and the loop sees it one period later at most.
+  void SleepUntil(std::int64_t deadline_ns) const noexcept {
+    const timespec deadline{deadline_ns / kNsPerS, deadline_ns % kNsPerS};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kNsPerS = 1'000'000'000;
+};
+static_assert(Clock<MonotonicClock>);
+
+}  // namespace reed::rt

@@ -1,0 +1,63 @@
+// What the loop's thread asks of the machine, for as long as the object lives: no page faults, priority, its
+// own core. Whatever is refused is in the report with the reason and the fix, never ignored. RT: set-up only.
+#pragma once
+
+#include <sched.h>
+
+#include <string>
+#include <vector>
+
+namespace reed::rt {
+
+struct RealtimeOptions {
+  int priority = 80;        // SCHED_FIFO 1 … 99; 0: stay an ordinary thread
+  int cpu = -1;             // core to pin the thread to, -1: none
+  bool lock_memory = true;  // no page of the program leaves memory
+};
+
+/// One request and its answer.
+struct Grant {
+  bool asked = false;
+  bool granted = false;
+  std::string problem;  // why not, empty when granted or not asked
+  std::string fix;      // what to type or change
+};
+
+struct RealtimeReport {
+  Grant memory;                     // mlockall
+  Grant fifo;                       // SCHED_FIFO
+  Grant affinity;                   // pinned to the core
+  std::string scheduler = "other";  // "fifo:80" or "other", as run_t wants it
+  int cpu = -1;                     // the core it is pinned to, -1: none
+
+  /// One line per refused request: what, why, fix.
+  std::vector<std::string> Complaints() const;
+};
+
+/// Applies to the calling thread (memory: to the process). Threads started inside the scope inherit priority
+/// and core, so ordinary threads are started before it. The destructor, on the same thread, puts everything
+/// back.
+class RealtimeScope {
+ public:
+  /// @throws std::invalid_argument for a core that does not exist or a priority outside 0 … 99: that is a
+  /// configuration error and not a refusal of the machine.
+  explicit RealtimeScope(const RealtimeOptions& options);
+  ~RealtimeScope();
+  RealtimeScope(const RealtimeScope&) = delete;
+  RealtimeScope& operator=(const RealtimeScope&) = delete;
+
+  const RealtimeReport& report() const noexcept { return report_; }
+
+ private:
+  void Pin(int cpu);
+  void Raise(int priority);
+  void LockMemory();
+
+  RealtimeReport report_;
+  cpu_set_t old_cpus_{};
+  int old_policy_ = SCHED_OTHER;
+  sched_param old_param_{};
+  int old_timer_slack_ns_ = -1;
+};
+
+}  // namespace reed::rt

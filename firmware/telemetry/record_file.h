@@ -1,0 +1,38 @@
+// A file of records behind a stdio buffer that stays readable when the disk fills up: after the first error
+// it is cut back to its last complete flush, and everything from there on is counted as lost. For an ordinary
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+
+#include "firmware/telemetry/sink_report.h"
+
+namespace reed::telemetry {
+
+class RecordFile {
+ public:
+  /// Watches over `file` (opened by somebody else, nothing written yet, not owned); nullptr: everything is
+  /// ignored.
+  RecordFile(std::FILE* file, const std::string& path);
+
+  /// True while records may be written; after an error the caller only counts them.
+  bool good() const noexcept { return file_ != nullptr && report_.problem.empty(); }
+
+  /// To be told of every record: whether stdio took it (its errno at hand), or it was not even tried.
+  void Count(bool taken);
+  /// Hands the buffer to the kernel.
+  void Flush();
+
+  const SinkReport& report() const noexcept { return report_; }
+
+ private:
+  void Fail();
+
+  std::FILE* file_;
+  SinkReport report_;
+  std::int64_t pending_ = 0;  // records in the buffer
+  std::int64_t complete_bytes_ = 0;
+};
+
+}  // namespace reed::telemetry
