@@ -1,0 +1,122 @@
+"""Which bus a run uses, made ready: the interface or the route that is missing is made where we may."""
+
+import fcntl
+import ipaddress
+import os
+import socket
+import subprocess
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+from reed_tools.errors import UsageError
+
+DEFAULT_GROUP, DEFAULT_PORT = "239.74.163.2", 43113
+VCAN = "vcan0"
+ALLOWED = "auto, socketcan:IFACE, udp, udp:GROUP:PORT or vm"
+ROUTE_FIX = ("ip link set lo multicast on", "ip route add 224.0.0.0/4 dev lo")
+
+
+def choose(wanted: str) -> str:
+    """The `--bus` value for the two programs, or "vm"."""
+    if wanted == "auto":
+        return f"socketcan:{VCAN}" if vcan_ready(VCAN) else udp("udp")
+    if wanted == "vm":
+        return wanted
+    if wanted.startswith("socketcan:"):
+        return socketcan(wanted)
+    if wanted == "udp" or wanted.startswith("udp:"):
+        return udp(wanted)
+    raise UsageError(f"--bus {wanted}: allowed are {ALLOWED}")
+
+
+def socketcan(wanted: str) -> str:
+    name = wanted.removeprefix("socketcan:")
+    if not kernel_has_can():
+        raise UsageError(f"--bus {wanted}: this machine's kernel has no SocketCAN; --bus vm or --bus udp works here")
+    if not (interface_exists(name) or (name.startswith("vcan") and make_vcan(name))):
+        raise UsageError(f"--bus {wanted}: there is no interface {name or '(empty)'}; `ip -br link show type vcan` and `type can` "
+                         "list those there are")
+    return wanted
+
+
+def udp(wanted: str) -> str:
+    parts = wanted.split(":")[1:] or [DEFAULT_GROUP, str(DEFAULT_PORT)]
+    try:
+        group, port = ipaddress.IPv4Address(parts[0]), int(parts[1])
+        if len(parts) != 2 or not group.is_multicast or not 0 < port < 65536:
+            raise ValueError
+    except (ValueError, IndexError):
+        raise UsageError(f"--bus {wanted}: GROUP is an IPv4 multicast address (224.0.0.0 to 239.255.255.255), "
+                         "PORT is 1 to 65535") from None
+    require_multicast_route()
+    return f"udp:{group}:{port}"
+
+
+def kernel_has_can() -> bool:
+    try:
+        socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW).close()
+        return True
+    except OSError:
+        return False
+
+
+def interface_exists(name: str) -> bool:
+    return bool(name) and Path("/sys/class/net", name).exists()
+
+
+def vcan_ready(name: str) -> bool:
+    return kernel_has_can() and (interface_exists(name) or make_vcan(name))
+
+
+def make_vcan(name: str) -> bool:
+    return (as_root(f"ip link add {name} type vcan") and as_root(f"ip link set {name} mtu 72")
+            and as_root(f"ip link set {name} up"))
+
+
+def as_root(command: str) -> bool:
+    prefix = [] if os.geteuid() == 0 else ["sudo", "-n"]
+    try:
+        return subprocess.run([*prefix, *command.split()], capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+def multicast_works() -> bool:
+    """Whether the kernel lets a datagram leave for a group through the loopback interface."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+            probe.sendto(b"", (DEFAULT_GROUP, 9))
+            return loopback_has_multicast()
+        except OSError:
+            return False
+
+
+def loopback_has_multicast() -> bool:
+    flags = int(Path("/sys/class/net/lo/flags").read_text(), 16)
+    return bool(flags & 0x1000)  # IFF_MULTICAST
+
+
+def require_multicast_route() -> None:
+    """Software bus and telemetry need a route for 224.0.0.0/4 and multicast on lo."""
+    if multicast_works() or (all([as_root(command) for command in ROUTE_FIX]) and multicast_works()):
+        return
+    raise UsageError(f"no multicast on this machine's loopback; as root: {' && '.join(ROUTE_FIX)}")
+
+
+@contextmanager
+def held(bus: str):
+    """Two runs on one bus would drive each other's arm: the second one is told so before it starts."""
+    path = Path(tempfile.gettempdir(), f"reed-bus-{bus.replace(':', '-').replace('/', '-')}.lock")
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        raise UsageError(f"another run is using {bus}; wait for it or choose another, like "
+                         f"--bus udp:{DEFAULT_GROUP}:{DEFAULT_PORT + 1}") from None
+    try:
+        yield
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,62 @@
+"""The command line. A command is a module with add_arguments(parser) and run(arguments) -> exit status, or with
+pass_through(argv) when another program reads the options. Only the module of the command that was asked for is imported: starting stays quick."""
+
+import argparse
+import importlib
+import sys
+
+from reed_tools.errors import ReedError, UsageError
+
+COMMANDS = {
+    "run": ("run_command", "one hardware-in-the-loop run: figures, plots, report"),
+    "report": ("report_command", "rebuild figures, plots and report of a run folder"),
+    "inspect": ("inspect_command", "the model and the law as numbers, by the code the firmware runs"),
+    "spy": ("spy_command", "watch every telemetry channel live with lcm-spy"),
+    "doctor": ("doctor_command", "what this machine can and cannot do, with the exact fixes"),
+    "test": ("test_command", "all tests, or those that match a filter"),
+}
+
+EXIT_STATUS = """exit status: 0 done and every check held; 1 a check or test failed; 2 wrong usage or configuration;
+             3 a program died or the bus was lost"""
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """Says what is wrong in one line; the page of usage is what --help is for."""
+
+    def error(self, message: str):
+        raise UsageError(f"{message} (see `{self.prog} --help`)")
+
+
+def overview() -> str:
+    rows = "\n".join(f"  {name:<9}{text}" for name, (_, text) in COMMANDS.items())
+    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more."
+
+
+def main(argv: list[str]) -> int:
+    try:
+        return dispatch(argv)
+    except ReedError as error:
+        print(f"reed: {error}", file=sys.stderr)
+        return error.exit_status
+    except KeyboardInterrupt:
+        print("reed: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        return 0
+
+
+def dispatch(argv: list[str]) -> int:
+    if not argv or argv[0] in ("help", "-h", "--help"):
+        print(overview())
+        return 0
+    name, rest = argv[0], argv[1:]
+    if name not in COMMANDS:
+        raise UsageError(f"unknown command `{name}`; commands: {', '.join(COMMANDS)}")
+    module_name, text = COMMANDS[name]
+    module = importlib.import_module(f"reed_tools.{module_name}")
+    if hasattr(module, "pass_through"):
+        return module.pass_through(rest)
+    parser = OneLineParser(prog=f"tools/reed {name}", description=text + ".", epilog=EXIT_STATUS,
+                           formatter_class=argparse.RawDescriptionHelpFormatter)
+    module.add_arguments(parser)
+    return module.run(parser.parse_args(rest))

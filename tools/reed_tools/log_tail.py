@@ -1,0 +1,41 @@
+"""Reads where a run is from the end of its growing telemetry log. Format of an LCM event log record, big-endian:
+sync word, event number, timestamp, channel length, data length, channel, data."""
+
+import os
+import struct
+from pathlib import Path
+
+SYNC = bytes.fromhex("EDA1DA01")
+RECORD = struct.Struct(">IQqII")
+CONTROL = struct.Struct(">8xqqdb")  # after the type's fingerprint: utime, cycle, t_s, mode
+WINDOW = 16384
+
+
+class LogTail:
+    def __init__(self, path: Path):
+        self.path = path
+
+    def size(self) -> int:
+        try:
+            return os.path.getsize(self.path)
+        except OSError:
+            return 0
+
+    def control(self) -> tuple[int, float] | None:
+        """(mode, t_s) of the newest complete REED_CONTROL in the last bytes of the file."""
+        try:
+            with open(self.path, "rb") as file:
+                file.seek(max(0, self.size() - WINDOW))
+                block = file.read()
+        except OSError:
+            return None
+        at = len(block)
+        while (at := block.rfind(SYNC, 0, at)) >= 0:
+            if at + RECORD.size > len(block):
+                continue
+            _, _, _, channel_size, data_size = RECORD.unpack_from(block, at)
+            data_at = at + RECORD.size + channel_size
+            if block[at + RECORD.size:data_at] == b"REED_CONTROL" and data_at + CONTROL.size <= len(block):
+                _, _, t_s, mode = CONTROL.unpack_from(block, data_at)
+                return mode, t_s
+        return None

@@ -1,0 +1,40 @@
+"""Where a run is: a bar on a terminal, plain lines without one."""
+
+import sys
+from contextlib import contextmanager
+
+MODES = ("off", "ready", "active", "fault")
+
+
+@contextmanager
+def shown(scenario: str, duration_s: float):
+    """Yields on_progress(mode, t_s)."""
+    if sys.stdout.isatty():
+        with bar(scenario, duration_s) as update:
+            yield update
+    else:
+        yield lines(duration_s)
+
+
+@contextmanager
+def bar(scenario: str, duration_s: float):
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:5.1f} / {task.total:.1f} s  {task.fields[mode]}"),
+               TimeRemainingColumn())
+    with Progress(*columns, transient=True) as progress:
+        task = progress.add_task(scenario, total=duration_s, mode="starting")
+        yield lambda mode, t_s: progress.update(task, completed=min(t_s, duration_s), mode=MODES[mode])
+
+
+def lines(duration_s: float):
+    """Prints at every change of mode and at every tenth of the run."""
+    last = {"mode": None, "tenth": 0}
+
+    def update(mode: int, t_s: float) -> None:
+        tenth = int(10 * t_s / duration_s)
+        if mode != last["mode"] or tenth > last["tenth"]:
+            last.update(mode=mode, tenth=tenth)
+            print(f"  {t_s:6.1f} / {duration_s:.1f} s  {MODES[mode]}", flush=True)
+
+    return update

@@ -1,0 +1,98 @@
+"""tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
+
+import time
+from pathlib import Path
+
+from reed_tools import bus_choice, hil, progress, result_table, scenario, vm
+from reed_tools.errors import RunError, UsageError
+from reed_tools.paths import ROOT, program
+from reed_tools.telemetry_log import merge
+
+DIED, USAGE = 3, 2
+
+
+def add_arguments(parser) -> None:
+    parser.add_argument("scenario", nargs="?", default="press_known", metavar="SCENARIO",
+                        help="a name in config/scenarios or a path; default %(default)s")
+    parser.add_argument("--arm", metavar="NAME|FILE", help="another arm than the scenario's")
+    parser.add_argument("--duration", metavar="S", help="seconds from the moment the arm is active")
+    parser.add_argument("--rate", metavar="HZ", help="cycles per second")
+    parser.add_argument("--seed", metavar="N", help="of every random number of the plant")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="run folder; default out/<time>-<scenario>")
+    parser.add_argument("--bus", default="auto", metavar="BUS",
+                        help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
+                             "vm (real SocketCAN inside a small VM)")
+    parser.add_argument("--clock", default="wall", choices=("wall", "lockstep"),
+                        help="wall: paced by the clock; lockstep: as fast as possible, bit-reproducible")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
+                        help="override any number of the scenario or arm; repeatable")
+
+
+def run(arguments) -> int:
+    bus = bus_choice.choose(arguments.bus)
+    with bus_choice.held(bus):
+        folder = make_folder(arguments)
+        effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments),
+                                             folder / "effective.toml")
+        duration_s = effective["scenario"]["duration_s"]
+        print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
+              f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)
+        plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
+                        bus, arguments.clock, str(folder))
+        with progress.shown(effective["scenario"]["name"], duration_s) as on_progress:
+            outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
+    return conclude(folder, plan, outcome)
+
+
+def make_folder(arguments) -> Path:
+    name = Path(arguments.scenario).stem
+    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{name}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for stale in (*folder.glob("*.lcmlog"), *folder.glob("*.png"), folder / "summary.json", folder / "report.html"):
+            stale.unlink(missing_ok=True)
+    except OSError as error:
+        raise UsageError(f"--out {folder}: {error.strerror}") from None
+    return folder.resolve()
+
+
+def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome) -> int:
+    """Keeps what was recorded first, then tells what happened."""
+    from reed_tools.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
+
+    merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
+    complaint = what_failed(plan, outcome)
+    if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
+        raise UsageError(complaint)
+    summary = evaluate(folder)
+    result_table.show(summary)
+    if outcome.interrupted:
+        print("interrupted: the figures are those of the part that ran")
+    print(f"report  {shown(folder / 'report.html')}")
+    if complaint:
+        raise RunError(complaint)
+    return 0 if summary["verdict"] == "pass" else 1
+
+
+def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
+    """One line about the program that ended by itself with a complaint; the firmware's loss of its plant comes second."""
+    if outcome.stalled:
+        return f"the loop recorded nothing for {hil.STALL_S:g} s and was stopped; {last_line(plan, 'firmware')}"
+    for name, status in (("plant", outcome.plant_status), ("firmware", outcome.firmware_status)):
+        if status:
+            how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
+            return f"{'reed_plant_sim' if name == 'plant' else 'reed_firmware'} {how}: {last_line(plan, name)}"
+    return None
+
+
+def last_line(plan: hil.Plan, name: str) -> str:
+    path = plan.output(name)
+    text = path.read_text(errors="replace").strip() if path.exists() else ""
+    return text.splitlines()[-1] if text else f"it printed nothing ({shown(path)})"
+
+
+def shown(path: Path) -> str:
+    try:
+        return str(path.relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)

@@ -1,0 +1,102 @@
+"""Telemetry logs: the two programs' logs merged into one, and one log read into arrays."""
+
+import hashlib
+import heapq
+import struct
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import lcm
+import numpy as np
+
+from reed_tools.errors import RunError
+from reed_tools.paths import use_message_types
+
+# Fixed order: it is part of the digest's definition.
+DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")
+TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
+          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t"}
+SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t"}
+HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
+
+
+@dataclass
+class Recording:
+    """One run as arrays. tables[channel][field] has one row per recorded cycle, tables[channel]["cycle"] says which."""
+
+    tables: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
+    singles: dict[str, list] = field(default_factory=dict)
+    channel_digests: dict[str, str] = field(default_factory=dict)
+
+    def has(self, channel: str) -> bool:
+        return len(self.tables[channel]["cycle"]) > 0
+
+    @property
+    def run(self):
+        """The last REED_RUN: the one written at the end if the firmware got that far."""
+        return self.singles["REED_RUN"][-1] if self.singles["REED_RUN"] else None
+
+    def digest(self, clock: str) -> str:
+        """SHA-256 over the SHA-256 of each channel's encoded messages in cycle order. The plant's truth belongs to it in
+        lockstep only: on a wall clock it is not the controller's state, and its samples depend on the machine."""
+        total = hashlib.sha256()
+        for channel in DIGEST_CHANNELS:
+            if channel != "REED_PLANT" or clock == "lockstep":
+                total.update(bytes.fromhex(self.channel_digests[channel]))
+        return total.hexdigest()
+
+
+def events(path: Path):
+    """(utime, channel, bytes) of every message in the log, in its order."""
+    log = lcm.EventLog(str(path), "r")
+    try:
+        for event in log:
+            if event.channel.startswith("REED_") and len(event.data) >= 16:
+                yield HEAD.unpack_from(event.data)[0] if len(event.data) >= 24 else 0, event.channel, event.data
+    finally:
+        log.close()
+
+
+def merge(parts: list[Path], target: Path) -> None:
+    """Writes all messages of `parts` by their own time, then deletes the parts."""
+    parts = [part for part in parts if part.exists()]
+    if target.exists():
+        target.unlink()
+    log = lcm.EventLog(str(target), "w")
+    for utime, channel, data in heapq.merge(*(events(part) for part in parts), key=lambda event: event[0]):
+        log.write_event(utime, channel, data)
+    log.close()
+    for part in parts:
+        part.unlink()
+
+
+def load(path: Path) -> Recording:
+    if not path.is_file():
+        raise RunError(f"{path} is missing: nothing was recorded")
+    use_message_types()
+    import reed
+
+    rows = {channel: [] for channel in TABLES}
+    payloads = {channel: [] for channel in DIGEST_CHANNELS}
+    recording = Recording(singles={channel: [] for channel in SINGLES})
+    for _, channel, data in events(path):
+        if channel in TABLES:
+            kind = getattr(reed, TABLES[channel])
+            message = kind.decode(data)
+            rows[channel].append(tuple(getattr(message, name) for name in kind.__slots__))
+            if channel in payloads:
+                payloads[channel].append(data)
+        elif channel in SINGLES:
+            recording.singles[channel].append(getattr(reed, SINGLES[channel]).decode(data))
+    for channel, name in TABLES.items():
+        recording.tables[channel] = columns(rows[channel], getattr(reed, name).__slots__)
+    last = max(recording.tables["REED_MEASURED"]["cycle"], default=-1)
+    for channel, messages in payloads.items():
+        # The plant may answer a SYNC after the controller's last recorded cycle.
+        kept = [data for data in messages if HEAD.unpack_from(data)[1] <= last]
+        recording.channel_digests[channel] = hashlib.sha256(b"".join(kept)).hexdigest()
+    return recording
+
+
+def columns(rows: list[tuple], names: list[str]) -> dict[str, np.ndarray]:
+    return {name: np.array(values) for name, values in zip(names, zip(*rows))} if rows else {name: np.array([]) for name in names}
