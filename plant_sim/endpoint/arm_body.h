@@ -1,0 +1,23 @@
+// What drives and sensors are mounted on. The program mounts them on ArmPlant; tests on bodies with closed
+// forms.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "plant_sim/dynamics/arm_plant.h"
+
+namespace reed::plant {
+
+/// The members and their promises are ArmPlant's.
+class ArmBody {
+ public:
+  virtual ~ArmBody() = default;
+  virtual void Reset(const Eigen::VectorXd& motor_angle_rad) = 0;
+  virtual void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) = 0;
+  virtual const Truth& truth() const = 0;
+  virtual bool healthy() const = 0;
+  virtual std::string ailment() const = 0;
+};
+
+}  // namespace reed::plant

@@ -1,0 +1,74 @@
+#include "plant_sim/endpoint/bus_port.h"
+
+namespace reed::plant {
+
+std::span<const Incoming> BusPort::Receive(std::int64_t deadline_ns) noexcept {
+  const int received = transport_.Receive(frames_, 1, deadline_ns);
+  std::size_t used = 0;
+  for (int i = 0; i < received; ++i) {
+    if (const auto in = Read(frames_[static_cast<std::size_t>(i)])) incoming_[used++] = *in;
+  }
+  return std::span(incoming_).first(used);
+}
+
+std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
+  const bus::Decoded decoded = decoder_.Decode(frame);
+  if (decoded.kind == bus::MessageKind::kSync) return ReadSync(frame, decoded);
+  if (decoded.kind == bus::MessageKind::kCommand && decoded.reject == bus::Reject::kNone) {
+    Incoming in;
+    in.kind = Incoming::Kind::kCommand;
+    in.command = decoded.command;
+    return in;
+  }
+  if (decoded.reject != bus::Reject::kNone) ++rejected_;
+  return std::nullopt;
+}
+
+/// A controller that was started anew begins its counters anew, so its first frames look repeated or out of
+/// sequence to a receiver that followed its predecessor. A SYNC moves nothing by itself; it is therefore read
+/// afresh, and its cycle number tells a restart (not after the last one) from a gap (after it). The same
+/// frame twice is neither, except that the first one of a run may be the first of a second run: answering t =
+/// 0 once more harms nobody.
+std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept {
+  bus::Decoder fresh;
+  const bus::Decoded own = fresh.Decode(frame);
+  const bool repeated = decoded.reject == bus::Reject::kRepeated;
+  if (own.reject != bus::Reject::kNone ||
+      (repeated && last_cycle_ == own.sync.cycle && first_cycle_ != own.sync.cycle)) {
+    ++rejected_;
+    return std::nullopt;
+  }
+  Incoming in;
+  in.kind = Incoming::Kind::kSync;
+  in.sync = own.sync;
+  in.new_controller = !last_cycle_ || own.sync.cycle <= *last_cycle_;
+  if (in.new_controller) {
+    decoder_ = fresh;
+    first_cycle_ = own.sync.cycle;
+  }
+  last_cycle_ = own.sync.cycle;
+  return in;
+}
+
+void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement) noexcept {
+  std::array<bus::Frame, bus::kMaxJoints + 1> batch;
+  std::size_t size = 0;
+  for (int i = 0; i < measurement.dof; ++i) {
+    bus::JointStateMessage joint = measurement.joints[static_cast<std::size_t>(i)];
+    joint.cycle_low4 = static_cast<std::uint8_t>(cycle & 0xFU);
+    batch[size++] = encoder_.JointState(i, joint);
+  }
+  if (!measurement.wrench_lost) {
+    bus::WrenchMessage wrench;
+    wrench.cycle = cycle;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      wrench.force_N[axis] = measurement.wrench.force_N[static_cast<Eigen::Index>(axis)];
+      wrench.moment_Nm[axis] = measurement.wrench.moment_Nm[static_cast<Eigen::Index>(axis)];
+    }
+    wrench.saturated = measurement.wrench.saturated;
+    batch[size++] = encoder_.Wrench(wrench);
+  }
+  transport_.Send(std::span<const bus::Frame>(batch).first(size));
+}
+
+}  // namespace reed::plant

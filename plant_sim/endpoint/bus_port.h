@@ -1,0 +1,53 @@
+// The plant's plug into the bus: frames to SYNC and commands, measurements to one batch of frames. RT: safe.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "bus/messages.h"
+#include "bus/transport.h"
+#include "plant_sim/endpoint/robot.h"
+
+namespace reed::plant {
+
+/// One thing that a controller wants.
+struct Incoming {
+  enum class Kind : std::uint8_t { kSync, kCommand } kind = Kind::kSync;
+  bool new_controller = false;  // kSync: cycle numbers repeat or go backwards, or it is the first ever
+  bus::SyncMessage sync;
+  bus::CommandMessage command;
+};
+
+class BusPort {
+ public:
+  explicit BusPort(bus::Transport& transport) : transport_(transport) {}
+
+  /// Waits for at least one frame until `deadline_ns` (CLOCK_MONOTONIC) and returns what the frames say, in
+  /// order; valid until the next call. Frames that may not be used, and those of nobody's concern here, are
+  /// left out and counted.
+  std::span<const Incoming> Receive(std::int64_t deadline_ns) noexcept;
+
+  /// One state frame per joint, then the wrench unless it is lost, in one Send.
+  void Answer(std::uint32_t cycle, const Measurement& measurement) noexcept;
+
+  bool alive() const noexcept { return transport_.alive(); }
+  std::uint64_t rejected() const noexcept { return rejected_; }
+
+ private:
+  static constexpr std::size_t kBatch = 64;
+
+  std::optional<Incoming> Read(const bus::Frame& frame) noexcept;
+  std::optional<Incoming> ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept;
+
+  bus::Transport& transport_;
+  bus::Decoder decoder_;
+  bus::Encoder encoder_;
+  std::array<bus::Frame, kBatch> frames_;
+  std::array<Incoming, kBatch> incoming_;
+  std::optional<std::uint32_t> first_cycle_, last_cycle_;  // of the present controller
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace reed::plant

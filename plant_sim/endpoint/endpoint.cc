@@ -1,0 +1,62 @@
+#include "plant_sim/endpoint/endpoint.h"
+
+#include "reed_layout.h"
+
+namespace reed::plant {
+
+Endpoint::Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder)
+    : period_s_(1.0 / scenario.timing.rate_hz),
+      timeout_periods_(scenario.drives.command_timeout_cycles),
+      body_(body),
+      journal_(recorder),
+      robot_(scenario, body, journal_),
+      port_(transport) {}
+
+bool Endpoint::Poll(std::int64_t deadline_ns) {
+  const auto incoming = port_.Receive(NextWork(deadline_ns));
+  if (!port_.alive()) {
+    Fail(Outcome::kBusLost, "the bus is lost: its interface went away");
+    return false;
+  }
+  Handle(incoming);
+  return !incoming.empty();
+}
+
+bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
+  if (sync.sync.layout != bus::layout::kLayoutId) {
+    Fail(Outcome::kWrongLayout,
+         "the controller speaks another bus layout: SYNC carries layout " + std::to_string(sync.sync.layout) +
+             ", this program was built with layout " + std::to_string(bus::layout::kLayoutId) +
+             " (bus/reed.dbc); build both programs from the same source");
+    return false;
+  }
+  journal_.Stamp(sync.sync.cycle, utime);
+  if (sync.new_controller) {
+    const bool first = syncs_ == 0;
+    robot_.Reset();
+    journal_.Note(first ? PlantEvent::kControllerPresent : PlantEvent::kControllerRestarted,
+                  robot_.drives().state(), 0.0,
+                  first ? "controller present: SYNC %u" : "another controller: SYNC %u, the arm starts over",
+                  sync.sync.cycle);
+  }
+  ++syncs_;
+  return true;
+}
+
+void Endpoint::Sample(std::uint32_t cycle) {
+  port_.Answer(cycle, robot_.Measure());
+  journal_.Put(robot_.Snapshot());
+}
+
+void Endpoint::CheckHealth() {
+  if (robot_.healthy() || outcome_ != Outcome::kRunning) return;
+  Fail(Outcome::kDiverged, "the simulated arm diverged: " + body_.ailment() + "; brakes closed");
+  journal_.Note(PlantEvent::kDiverged, robot_.drives().state(), robot_.time_s(), "%s", failure_.c_str());
+}
+
+void Endpoint::Fail(Outcome outcome, const std::string& line) {
+  outcome_ = outcome;
+  failure_ = line;
+}
+
+}  // namespace reed::plant

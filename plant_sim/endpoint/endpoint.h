@@ -1,0 +1,61 @@
+// The simulated arm as one participant of the bus; the two clocks differ in when physics happens
+// (lockstep_endpoint.h, wall_endpoint.h). RT: safe while no controller restarts and nothing fails.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "plant_sim/endpoint/bus_port.h"
+#include "plant_sim/endpoint/outcome.h"
+#include "plant_sim/endpoint/robot.h"
+
+namespace reed::plant {
+
+class Endpoint {
+ public:
+  /// `transport`, `body` and `recorder` outlive the endpoint.
+  Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder);
+  virtual ~Endpoint() = default;
+
+  /// Waits for frames until `deadline_ns` (CLOCK_MONOTONIC) or until the clock has work, whichever is first,
+  /// and does what they ask. True when any frame was of use.
+  bool Poll(std::int64_t deadline_ns);
+
+  Outcome outcome() const noexcept { return outcome_; }
+  /// One line for people when the outcome is a failure.
+  const std::string& failure() const noexcept { return failure_; }
+  const Robot& robot() const noexcept { return robot_; }
+  std::int64_t syncs() const noexcept { return syncs_; }
+  std::uint64_t rejected() const noexcept { return port_.rejected() + refused_commands_; }
+
+ protected:
+  virtual std::int64_t NextWork(std::int64_t deadline_ns) const noexcept = 0;
+  virtual void Handle(std::span<const Incoming> incoming) = 0;
+
+  /// Common to both clocks: layout check, restart, stamp. False: this SYNC must not be answered.
+  bool Accept(const Incoming& sync, std::int64_t utime);
+  /// Sensors, answer, telemetry, all of this instant.
+  void Sample(std::uint32_t cycle);
+  /// After every advance: a body that diverged ends the simulation.
+  void CheckHealth();
+  void CountRefusedCommand() noexcept { ++refused_commands_; }
+
+  double period_s_;
+  double timeout_periods_;
+  Robot& mutable_robot() noexcept { return robot_; }
+  Journal& journal() noexcept { return journal_; }
+
+ private:
+  void Fail(Outcome outcome, const std::string& line);
+
+  ArmBody& body_;
+  Journal journal_;
+  Robot robot_;
+  BusPort port_;
+  Outcome outcome_ = Outcome::kRunning;
+  std::string failure_;
+  std::int64_t syncs_ = 0;
+  std::uint64_t refused_commands_ = 0;
+};
+
+}  // namespace reed::plant

@@ -1,0 +1,25 @@
+// ArmPlant as the body under drives and sensors.
+#pragma once
+
+#include <string>
+
+#include "plant_sim/endpoint/arm_body.h"
+
+namespace reed::plant {
+
+class FlexibleArmBody final : public ArmBody {
+ public:
+  explicit FlexibleArmBody(const Scenario& scenario) : plant_(scenario) {}
+  void Reset(const Eigen::VectorXd& motor_angle_rad) override { plant_.Reset(motor_angle_rad); }
+  void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) override {
+    plant_.Advance(motor_torque_Nm, braked, dt_s);
+  }
+  const Truth& truth() const override { return plant_.truth(); }
+  bool healthy() const override { return plant_.healthy(); }
+  std::string ailment() const override { return plant_.ailment(); }
+
+ private:
+  ArmPlant plant_;
+};
+
+}  // namespace reed::plant

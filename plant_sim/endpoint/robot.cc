@@ -1,0 +1,147 @@
+#include "plant_sim/endpoint/robot.h"
+
+#include <algorithm>
+#include <span>
+
+#include "plant_sim/drive/drive_state.h"
+
+namespace reed::plant {
+namespace {
+
+std::array<double, 3> ToArray(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+double Fastest(const Eigen::VectorXd& speed_radps) { return speed_radps.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+Robot::Robot(const Scenario& scenario, ArmBody& body, Journal& journal)
+    : body_(body),
+      journal_(journal),
+      start_rad_(Eigen::Map<const Eigen::VectorXd>(scenario.reference.start_rad.data(), scenario.arm.dof())),
+      drives_(scenario.arm, scenario.drives),
+      encoder_(scenario.sensors.encoder_bits),
+      speeds_(static_cast<std::size_t>(scenario.arm.dof()),
+              VelocityFilter(scenario.sensors.velocity_filter_hz)),
+      wrench_(scenario.sensors, scenario.seed) {
+  Reset();
+}
+
+void Robot::Reset() {
+  body_.Reset(start_rad_);
+  drives_.Reset();
+  wrench_.Reset();
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    speeds_[i].Reset(encoder_.Read(start_rad_[static_cast<Eigen::Index>(i)]));
+  }
+  time_s_ = 0.0;
+  sampled_s_ = 0.0;
+  enabled_s_ = -1.0;
+  request_ = bus::DriveRequest::kOff;
+  in_contact_ = body_.truth().gap_m < 0.0;
+  wrench_lost_ = false;
+}
+
+Measurement Robot::Measure() {
+  const Truth& truth = body_.truth();
+  Measurement m;
+  m.dof = static_cast<int>(speeds_.size());
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const double reading_rad = encoder_.Read(truth.motor_angle_rad[row]);
+    speeds_[i].Update(reading_rad, time_s_ - sampled_s_);
+    m.joints[i].position_rad = reading_rad;
+    m.joints[i].velocity_radps = speeds_[i].speed_radps();
+    m.joints[i].torque_Nm = drives_.torque_Nm()[row];
+    m.joints[i].state = drives_.state();
+  }
+  sampled_s_ = time_s_;
+  // A wall and a disturbance act on a point: no moment about the tool point.
+  m.wrench = wrench_.Measure(truth.contact_force_N, Eigen::Vector3d::Zero());
+  m.wrench_lost = enabled_s_ >= 0.0 && wrench_.Lost(time_s_ - enabled_s_);
+  if (m.wrench_lost != wrench_lost_) {
+    wrench_lost_ = m.wrench_lost;
+    journal_.Note(wrench_lost_ ? PlantEvent::kWrenchLost : PlantEvent::kWrenchBack, drives_.state(), time_s_,
+                  "wrench frames %s at %.3f s", wrench_lost_ ? "stop" : "are back", time_s_);
+  }
+  return m;
+}
+
+bool Robot::Command(const bus::CommandMessage& command) {
+  const bus::DriveState before = drives_.state();
+  const double fastest_radps = Fastest(body_.truth().motor_speed_radps);
+  if (!drives_.Command(command.request, command.torque_Nm, fastest_radps)) return false;
+  const bool asked = command.request == bus::DriveRequest::kEnable && request_ != command.request;
+  request_ = command.request;
+  if (asked && drives_.braked()) {
+    journal_.Note(PlantEvent::kEnableRefused, drives_.state(), fastest_radps,
+                  "enable refused at %.3f s: drives %s, fastest motor %.3f rad/s (needs ready, then enable, "
+                  "at rest below "
+                  "%.2f rad/s)",
+                  time_s_, Name(before), fastest_radps, kRestSpeed_radps);
+  }
+  NoteDriveChange(before);
+  return true;
+}
+
+void Robot::Silence(double periods) {
+  const bus::DriveState before = drives_.state();
+  drives_.Silence(periods);
+  NoteDriveChange(before);
+}
+
+void Robot::Advance(double dt_s) {
+  body_.Advance(drives_.torque_Nm(), drives_.braked(), dt_s);
+  time_s_ += dt_s;
+  if (!body_.healthy()) {
+    const bus::DriveState before = drives_.state();
+    drives_.Fault();
+    NoteDriveChange(before);
+  }
+  NoteContactChange();
+}
+
+PlantRecord Robot::Snapshot() const {
+  const Truth& truth = body_.truth();
+  PlantRecord r;
+  r.t_s = time_s_;
+  r.dof = static_cast<std::int32_t>(speeds_.size());
+  const auto copy = [](const Eigen::VectorXd& from, std::array<double, kMaxJoints>& to) {
+    std::copy_n(from.data(), from.size(), to.begin());
+  };
+  copy(truth.motor_angle_rad, r.motor_angle);
+  copy(truth.motor_speed_radps, r.motor_speed);
+  copy(truth.joint_angle_rad, r.joint_angle);
+  copy(drives_.torque_Nm(), r.torque);
+  r.braked = drives_.braked();
+  r.tip = ToArray(truth.tip_m);
+  r.tip_velocity = ToArray(truth.tip_velocity_mps);
+  r.contact_force = ToArray(truth.contact_force_N);
+  r.normal_force = truth.normal_force_N;
+  r.gap = truth.gap_m;
+  r.kinetic_J = truth.kinetic_J;
+  r.elastic_J = truth.elastic_J;
+  r.potential_J = truth.potential_J;
+  return r;
+}
+
+void Robot::NoteDriveChange(bus::DriveState before) {
+  const bus::DriveState now = drives_.state();
+  if (now == before) return;
+  if (now == bus::DriveState::kEnabled) enabled_s_ = time_s_;
+  journal_.Note(PlantEvent::kDriveState, now, static_cast<double>(now), "drives %s -> %s at %.3f s",
+                Name(before), Name(now), time_s_);
+  if (BrakesClosed(now) != BrakesClosed(before)) {
+    journal_.Note(BrakesClosed(now) ? PlantEvent::kBrakesClosed : PlantEvent::kBrakesReleased, now, time_s_,
+                  "brakes %s at %.3f s", BrakesClosed(now) ? "closed" : "released", time_s_);
+  }
+}
+
+void Robot::NoteContactChange() {
+  const bool contact = body_.truth().gap_m < 0.0;
+  if (contact == in_contact_) return;
+  in_contact_ = contact;
+  journal_.Note(contact ? PlantEvent::kContactMade : PlantEvent::kContactLost, drives_.state(),
+                body_.truth().normal_force_N, "contact %s at %.3f s", contact ? "made" : "lost", time_s_);
+}
+
+}  // namespace reed::plant

@@ -1,0 +1,73 @@
+#include "plant_sim/endpoint/wall_endpoint.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace reed::plant {
+
+WallClock WallClock::System() {
+  using namespace std::chrono;  // NOLINT(google-build-using-namespace): local to two expressions
+  return {[] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); },
+          [] { return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count(); }};
+}
+
+WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body,
+                           Recorder& recorder, WallClock clock)
+    : Endpoint(scenario, transport, body, recorder),
+      clock_(std::move(clock)),
+      max_step_ns_(std::max<std::int64_t>(1, std::llround(scenario.plant.max_step_s * 1e9))) {}
+
+std::int64_t WallEndpoint::NextWork(std::int64_t deadline_ns) const noexcept {
+  return syncs() == 0 ? deadline_ns : std::min(deadline_ns, integrated_ns_ + max_step_ns_);
+}
+
+/// The silence of the controller is judged by what has arrived: if this process itself was kept from running
+/// while commands came in, real drives would have seen them in time.
+void WallEndpoint::Handle(std::span<const Incoming> incoming) {
+  const bool command_waits = std::any_of(incoming.begin(), incoming.end(), [](const Incoming& in) {
+    return in.kind == Incoming::Kind::kCommand;
+  });
+  if (syncs() > 0) CatchUp(clock_.monotonic_ns(), command_waits);
+  for (const Incoming& in : incoming) {
+    if (outcome() != Outcome::kRunning) return;
+    if (in.kind == Incoming::Kind::kSync) {
+      OnSync(in);
+    } else {
+      OnCommand(in.command);
+    }
+  }
+}
+
+void WallEndpoint::OnSync(const Incoming& sync) {
+  if (!Accept(sync, clock_.realtime_us())) return;
+  if (sync.new_controller) integrated_ns_ = clock_.monotonic_ns();
+  cycle_ = sync.sync.cycle;
+  Sample(cycle_);
+}
+
+/// A command is an answer to a SYNC of the last few periods; an older one is a stray of another controller.
+void WallEndpoint::OnCommand(const bus::CommandMessage& command) {
+  const bool recent = syncs() > 0 && command.cycle <= cycle_ && cycle_ - command.cycle < timeout_periods_;
+  if (!recent || !mutable_robot().Command(command)) CountRefusedCommand();
+}
+
+void WallEndpoint::CatchUp(std::int64_t now_ns, bool command_waits) {
+  if (const std::int64_t behind_ns = now_ns - integrated_ns_; behind_ns > kMaxCatchUp_ns) {
+    integrated_ns_ = now_ns - kMaxCatchUp_ns;
+    const double lost_s = static_cast<double>(behind_ns - kMaxCatchUp_ns) * 1e-9;
+    journal().Note(PlantEvent::kTooSlow, robot().drives().state(), lost_s,
+                   "the simulation fell behind the clock and gave up %.3f s of it", lost_s);
+  }
+  while (integrated_ns_ < now_ns && outcome() == Outcome::kRunning) {
+    const std::int64_t step_ns = std::min(now_ns - integrated_ns_, max_step_ns_);
+    const double step_s = static_cast<double>(step_ns) * 1e-9;
+    mutable_robot().Advance(step_s);
+    if (!command_waits) mutable_robot().Silence(step_s / period_s_);
+    integrated_ns_ += step_ns;
+    CheckHealth();
+  }
+}
+
+}  // namespace reed::plant

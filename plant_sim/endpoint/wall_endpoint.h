@@ -1,0 +1,41 @@
+// Time by CLOCK_MONOTONIC. The arm moves on its own; SYNC only samples it and commands act when they arrive,
+// so that a late controller really hurts. The plant's clock starts with a controller's first SYNC.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "plant_sim/endpoint/endpoint.h"
+
+namespace reed::plant {
+
+/// Where time comes from; tests bring their own.
+struct WallClock {
+  std::function<std::int64_t()> monotonic_ns;
+  std::function<std::int64_t()> realtime_us;
+  static WallClock System();
+};
+
+class WallEndpoint final : public Endpoint {
+ public:
+  WallEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+               WallClock clock = WallClock::System());
+
+ private:
+  /// A machine that is this far behind gives the time up (and says so) instead of chasing it for ever.
+  static constexpr std::int64_t kMaxCatchUp_ns = 250'000'000;
+
+  std::int64_t NextWork(std::int64_t deadline_ns) const noexcept override;
+  void Handle(std::span<const Incoming> incoming) override;
+  void OnSync(const Incoming& sync);
+  void OnCommand(const bus::CommandMessage& command);
+  /// Physics up to `now_ns` in steps of at most plant.max_step_s.
+  void CatchUp(std::int64_t now_ns, bool command_waits);
+
+  WallClock clock_;
+  std::int64_t max_step_ns_;
+  std::int64_t integrated_ns_ = 0;  // CLOCK_MONOTONIC instant of the arm's state
+  std::uint32_t cycle_ = 0;
+};
+
+}  // namespace reed::plant

@@ -1,0 +1,39 @@
+#include "plant_sim/process/realtime.h"
+
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace reed::plant {
+
+std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
+  std::vector<std::string> refused;
+  // Every page now and later: a page fault in a step costs more than the step (mlockall(2), notes on real
+  // time).
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    refused.push_back(std::string("memory not locked (") + std::strerror(errno) +
+                      "); fix: ulimit -l unlimited, or memlock in /etc/security/limits.conf");
+  }
+  sched_param param{};
+  param.sched_priority = std::max(1, timing.priority - 1);
+  if (sched_setscheduler(0, SCHED_FIFO, &param) != 0) {
+    refused.push_back("SCHED_FIFO " + std::to_string(param.sched_priority) + " not granted (" +
+                      std::strerror(errno) + "); fix: run as root, or rtprio " +
+                      std::to_string(param.sched_priority) + " in /etc/security/limits.conf");
+  }
+  if (timing.plant_cpu >= 0) {
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    CPU_SET(static_cast<std::size_t>(timing.plant_cpu), &cores);
+    if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
+      refused.push_back("core " + std::to_string(timing.plant_cpu) + " not granted (" + std::strerror(errno) +
+                        "); fix: timing.plant_cpu must be a core of this machine");
+    }
+  }
+  return refused;
+}
+
+}  // namespace reed::plant

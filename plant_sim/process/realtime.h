@@ -1,0 +1,16 @@
+// Real-time manners of the wall clock: priority, core, memory. RT: set-up only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/schema/scenario.h"
+
+namespace reed::plant {
+
+/// Asks for SCHED_FIFO one below the controller's priority (its loop must never wait for the simulation), for
+/// timing.plant_cpu, and for locked memory, for the calling thread. Returns one line, with the fix, for each
+/// thing that was not granted.
+std::vector<std::string> AskForRealtime(const TimingConfig& timing);
+
+}  // namespace reed::plant

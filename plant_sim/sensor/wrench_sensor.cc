@@ -1,0 +1,49 @@
+#include "plant_sim/sensor/wrench_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reed::plant {
+namespace {
+
+constexpr std::uint32_t kForceStream = 1;
+constexpr std::uint32_t kMomentStream = 2;
+
+double Quantize(double value, double quantum) noexcept {
+  return quantum > 0.0 ? std::nearbyint(value / quantum) * quantum : value;
+}
+
+}  // namespace
+
+WrenchSensor::WrenchSensor(const SensorConfig& config, std::int64_t seed)
+    : config_(config), seed_(seed), force_noise_(seed, kForceStream), moment_noise_(seed, kMomentStream) {}
+
+void WrenchSensor::Reset() {
+  force_noise_ = RandomStream(seed_, kForceStream);
+  moment_noise_ = RandomStream(seed_, kMomentStream);
+}
+
+WrenchReading WrenchSensor::Measure(const Eigen::Vector3d& force_N,
+                                    const Eigen::Vector3d& moment_Nm) noexcept {
+  WrenchReading reading;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double raw_N =
+        force_N[axis] + config_.force_bias_N[axis] + config_.force_noise_N * force_noise_.Normal();
+    const double rounded_N = Quantize(raw_N, config_.force_quantum_N);
+    reading.force_N[axis] = std::clamp(rounded_N, -config_.force_range_N, config_.force_range_N);
+    reading.saturated |= std::abs(rounded_N) > config_.force_range_N;
+
+    const double raw_Nm = moment_Nm[axis] + config_.moment_noise_Nm * moment_noise_.Normal();
+    reading.moment_Nm[axis] = Quantize(raw_Nm, config_.moment_quantum_Nm);
+  }
+  return reading;
+}
+
+bool WrenchSensor::Lost(double since_enabled_s) const noexcept {
+  constexpr double kClockRounding_s = 1e-9;  // a sum of periods may end just short of the instant it means
+  const double t_s = since_enabled_s + kClockRounding_s;
+  return config_.wrench_lost_from_s >= 0.0 && t_s >= config_.wrench_lost_from_s &&
+         t_s < config_.wrench_lost_to_s;
+}
+
+}  // namespace reed::plant

@@ -1,0 +1,38 @@
+// Wrist wrench: force and moment of the environment on the robot, base axes, at the tool point. RT: safe.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "config/schema/scenario.h"
+#include "plant_sim/sensor/random_stream.h"
+
+namespace reed::plant {
+
+struct WrenchReading {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
+  bool saturated = false;  // a force axis is at its range
+};
+
+class WrenchSensor {
+ public:
+  WrenchSensor(const SensorConfig& config, std::int64_t seed);
+
+  /// As after power-up with the same seed: the noise starts over.
+  void Reset();
+
+  /// truth + bias + noise, rounded to the quantum, then clamped to the range.
+  WrenchReading Measure(const Eigen::Vector3d& force_N, const Eigen::Vector3d& moment_Nm) noexcept;
+
+  /// True while no frame leaves the sensor; seconds since the drives were enabled, negative before.
+  bool Lost(double since_enabled_s) const noexcept;
+
+ private:
+  SensorConfig config_;
+  std::int64_t seed_;
+  RandomStream force_noise_;
+  RandomStream moment_noise_;
+};
+
+}  // namespace reed::plant
