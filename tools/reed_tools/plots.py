@@ -126,7 +126,7 @@ def parameters(signals: Signals, arm: dict):
         if k >= count:
             axis.set_axis_off()
             continue
-        axis.axhspan(arm["p_lo"][k], arm["p_hi"][k], color="0.92", label="box")
+        axis.axhspan(arm["p_lo"][k], arm["p_hi"][k], color="0.92", zorder=-1, label="box")
         axis.axhline(arm["p_true"][k], color="black", linestyle="--", linewidth=0.9, label="truth")
         axis.plot(signals.t, signals.p_hat[:, k], color=COLOURS[0], label="estimate")
         axis.set_title(arm["param_names"][k], loc="left")
@@ -154,10 +154,10 @@ def timing(recording: Recording, summary: dict):
         axis.axvline(period_us, color="black", linestyle="--", linewidth=0.8)
         figures = summary["timing_us"][name]
         axis.axvline(figures["p99"], color="0.4", linestyle=":", linewidth=0.9)
-        axis.text(0.995, 0.93, f"p50 {figures['p50']:.1f}  p99 {figures['p99']:.1f}  max {figures['max']:.0f} µs",
-                  transform=axis.transAxes, ha="right", va="top", fontsize=8)
+        axis.set_title(f"p50 {figures['p50']:.1f}   p99 {figures['p99']:.1f}   max {figures['max']:.0f} µs", loc="right", fontsize=8)
         axis.set_xscale("log")
         axis.set_yscale("log")
+        axis.set_ylim(bottom=0.7)
         axis.set_ylabel(f"{name}\n[cycles]")
     axes[0].set_title(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", loc="left")
     axes[-1].set_xlabel("duration [µs]")
