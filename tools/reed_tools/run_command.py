@@ -1,5 +1,7 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
+import shutil
+import tempfile
 import time
 from pathlib import Path
 
@@ -31,9 +33,11 @@ def add_arguments(parser) -> None:
 def run(arguments) -> int:
     bus = bus_choice.choose(arguments.bus)
     with bus_choice.held(bus):
-        folder = make_folder(arguments)
-        effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments),
-                                             folder / "effective.toml")
+        with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
+            checked = Path(scratch, "effective.toml")
+            effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked)
+            folder = make_folder(arguments, effective["scenario"]["name"])
+            shutil.copy(checked, folder)
         duration_s = effective["scenario"]["duration_s"]
         print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
               f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)
@@ -44,8 +48,7 @@ def run(arguments) -> int:
     return conclude(folder, plan, outcome)
 
 
-def make_folder(arguments) -> Path:
-    name = Path(arguments.scenario).stem
+def make_folder(arguments, name: str) -> Path:
     folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{name}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -65,7 +68,8 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome) -> int:
     if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
         raise UsageError(complaint)
     summary = evaluate(folder)
-    result_table.show(summary)
+    if summary["cycles"]:
+        result_table.show(summary)
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")

@@ -1,0 +1,46 @@
+"""Stands in for reed_firmware and reed_plant_sim: same options, same exit statuses, a synthetic log. What it does comes from
+REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), refuse, die, hang or endless."""
+
+import argparse
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+import synthetic_run
+
+
+def main() -> int:
+    name = "plant" if "plant" in Path(sys.argv[0]).name else "firmware"
+    behaviour = os.environ.get(f"REED_FAKE_{name.upper()}", "ok")
+    parser = argparse.ArgumentParser()
+    for option in ("--config", "--bus", "--clock", "--log", "--candump"):
+        parser.add_argument(option)
+    options = parser.parse_args()
+    stopped = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopped.append(True))
+    Path(options.log).with_suffix(".options").write_text(" ".join(sys.argv[1:]))
+    if behaviour == "refuse":
+        print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
+        return 2
+    write_own_log(name, Path(options.log), options.clock)
+    if behaviour == "die":
+        print("bus lost: vcan0 went away", file=sys.stderr)
+        return 3
+    if name == "plant" or behaviour == "endless":
+        while not stopped:
+            time.sleep(0.02)
+        with open(Path(options.log).parent / "stopped", "a") as file:
+            file.write(name + "\n")
+    return 0
+
+
+def write_own_log(name: str, path: Path, clock: str) -> None:
+    scratch = synthetic_run.write(path.parent / f"scratch-{name}", [], duration_s=1.0, clock=clock)
+    (scratch / f"{name}.lcmlog").rename(path)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
