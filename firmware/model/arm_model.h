@@ -30,13 +30,14 @@ struct UnitShape {
   MassMoments unit;
 };
 
-/// A straight elastic member: cross-section with one EI for both bending planes (round tube).
+/// A straight elastic member along one axis of its link; one EI for both bending planes (round tube).
 struct Member {
-  int link = 0;         // 0-based link it belongs to
-  bool along_z = true;  // true: d of the link, along z_i up to the origin; false: a of the next row, along
-                        // x_i from the origin
-  double length = 0.0;  // signed: negative when the DH entry is
-  double EA = 0.0, EI = 0.0, GJ = 0.0, rhoA = 0.0;
+  int link = 0;                         // 0-based
+  int axis = 2;                         // 2: d of the link, along z_i; 0: a of the next row, along x_i
+  double start_at = 0.0, end_at = 0.0;  // where on that axis, from the origin of the link
+  double length = 0.0, EA = 0.0, EI = 0.0, GJ = 0.0, rhoA = 0.0;
+
+  double sign() const { return end_at < start_at ? -1.0 : 1.0; }
 };
 
 template <int N, int P>
@@ -57,13 +58,16 @@ struct ArmModel {
   Vec<P> p_true, p_nominal, p_lo, p_hi;
   int num_parameters;  // columns from here to P are zero
 
-  // Drive train and limits; zero (limits: infinite) where the description does not say.
+  // Drive train and limits; where the description does not say: no inertia, no hardening, everything else
+  // infinite.
   Vec<N> rotor_inertia, joint_stiffness, joint_hardening, torque_limit, position_min, position_max,
       speed_limit;
 
   // Elastic members from base to tip; none for an arm that is described without sections.
   FixedArray<Member, kMaxMembers> member;
   int num_members;
+  FixedArray<int, N>
+      carrier;  // the longer member of each link, which carries its weight; -1: the link has none
 
   explicit ArmModel(const ArmDescription& arm);
 
@@ -71,6 +75,7 @@ struct ArmModel {
   void ReadParameters(const ArmDescription& arm);
   void ReadBodies(const ArmDescription& arm);
   void ReadMembers(const ArmDescription& arm);
+  void AddMember(const ArmDescription& arm, Member beam);
 };
 
 namespace internal {
@@ -114,7 +119,7 @@ ArmModel<N, P>::ArmModel(const ArmDescription& arm)
   }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   rotor_inertia = internal::PerJoint<N>(arm.rotor_inertia_kgm2, 0.0, "rotor inertia");
-  joint_stiffness = internal::PerJoint<N>(arm.joint_stiffness_Nmprad, 0.0, "joint stiffness");
+  joint_stiffness = internal::PerJoint<N>(arm.joint_stiffness_Nmprad, kInfinity, "joint stiffness");
   joint_hardening = internal::PerJoint<N>(arm.joint_hardening_Nmprad3, 0.0, "joint hardening");
   torque_limit = internal::PerJoint<N>(arm.torque_limit_Nm, kInfinity, "torque limit");
   position_min = internal::PerJoint<N>(arm.position_min_rad, -kInfinity, "lower position limit");
@@ -176,33 +181,40 @@ void ArmModel<N, P>::ReadBodies(const ArmDescription& arm) {
 }
 
 /// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
+/// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
 template <int N, int P>
 void ArmModel<N, P>::ReadMembers(const ArmDescription& arm) {
   num_members = 0;
-  if (arm.sections.empty()) return;
-  if (a(0) != 0.0)
-    throw std::invalid_argument(arm.name + ": a of the first row lies before the first link, it cannot bend");
   for (int i = 0; i < N; ++i) {
-    if (d(i) != 0.0) member[num_members++] = {i, true, d(i)};
-    if (i + 1 < N && a(i + 1) != 0.0) member[num_members++] = {i, false, a(i + 1)};
+    carrier[i] = -1;
+    if (arm.sections.empty()) continue;
+    if (d(i) != 0.0) AddMember(arm, {i, 2, -d(i), 0.0});
+    if (i + 1 < N && a(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, a(i + 1)});
   }
   if (static_cast<int>(arm.sections.size()) != num_members) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(arm.sections.size()) + " sections for " +
                                 std::to_string(num_members) + " members (non-zero d and a)");
   }
-  for (int j = 0; j < num_members; ++j) {
-    const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
-    Member& beam = member[j];
-    if (std::abs(section.length_m - std::abs(beam.length)) > 1e-6) {
-      throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
-                                  std::to_string(section.length_m) + " m long, its DH entry " +
-                                  std::to_string(std::abs(beam.length)) + " m");
-    }
-    beam.EA = section.EA_N;
-    beam.EI = section.EI_Nm2;
-    beam.GJ = section.GJ_Nm2;
-    beam.rhoA = section.rhoA_kgpm;
+}
+
+template <int N, int P>
+void ArmModel<N, P>::AddMember(const ArmDescription& arm, Member beam) {
+  const int j = num_members++;
+  if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
+  const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
+  beam.length = std::abs(beam.end_at - beam.start_at);
+  if (std::abs(section.length_m - beam.length) > 1e-6) {
+    throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
+                                std::to_string(section.length_m) + " m long, its DH entry " +
+                                std::to_string(beam.length) + " m");
   }
+  beam.EA = section.EA_N;
+  beam.EI = section.EI_Nm2;
+  beam.GJ = section.GJ_Nm2;
+  beam.rhoA = section.rhoA_kgpm;
+  member[j] = beam;
+  int& longest = carrier[beam.link];
+  if (longest < 0 || beam.length > member[longest].length) longest = j;
 }
 
 }  // namespace reed::model
