@@ -1,5 +1,6 @@
 // The simulated arm: motors, elastic joints, links that bend, gravity, friction, contact.
-// Derived from Lagrange's equations (17)-(21) by another route than the controller's recursions; see docs/flexible_arm.md.
+// Derived from Lagrange's equations (17)-(21) by another route than the controller's recursions; see
+// docs/flexible_arm.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,23 +15,25 @@ struct Truth {
   double t_s = 0.0;
   Eigen::VectorXd motor_angle_rad, motor_speed_radps, joint_angle_rad;
   Eigen::Vector3d tip_m = Eigen::Vector3d::Zero(), tip_velocity_mps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d contact_force_N = Eigen::Vector3d::Zero();  // environment (wall and disturbance) on the robot, at the tool point
-  double normal_force_N = 0.0;                                // of the wall alone
+  Eigen::Vector3d contact_force_N =
+      Eigen::Vector3d::Zero();  // environment (wall and disturbance) on the robot, at the tool point
+  double normal_force_N = 0.0;  // of the wall alone
   double gap_m = 1e9;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
 };
 
 class ArmPlant {
  public:
-  /// Throws std::invalid_argument when the arm cannot be simulated (no rotor inertia, no sections for flexible links ...).
+  /// Throws std::invalid_argument when the arm cannot be simulated (no rotor inertia, no sections for
+  /// flexible links ...).
   explicit ArmPlant(const Scenario& scenario);
   ~ArmPlant();
 
   /// Puts the arm at rest, in static equilibrium, with the motors held at these angles. t = 0.
   void Reset(const Eigen::VectorXd& motor_angle_rad);
 
-  /// Advances by dt with constant motor torques (or closed brakes: motors held by stiff friction), in steps of at most
-  /// plant.max_step_s. No heap allocation after the constructor and one Reset.
+  /// Advances by dt with constant motor torques (or closed brakes: motors held by stiff friction), in steps
+  /// of at most plant.max_step_s. No heap allocation after the constructor and one Reset.
   void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s);
 
   const Truth& truth() const;

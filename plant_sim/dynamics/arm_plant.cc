@@ -1,0 +1,178 @@
+#include "plant_sim/dynamics/arm_plant.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "plant_sim/dynamics/disturbance.h"
+#include "plant_sim/dynamics/rosenbrock.h"
+
+namespace reed::plant {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kAbsurdSpeed = 1e3;  // rad/s of a joint or motor; arms of this class stay below 20
+
+std::vector<Brake> BuildBrakes(const ArmChain& chain) {
+  std::vector<Brake> brakes;
+  for (const Drivetrain& drive : chain.drivetrains) {
+    const double stiffness = 10.0 * drive.spring.k_q;  // a closed brake is stiff beside the gearbox it holds
+    brakes.emplace_back(stiffness, 2.0 * std::sqrt(stiffness * drive.rotor_inertia), drive.holding_torque);
+  }
+  return brakes;
+}
+
+}  // namespace
+
+class ArmPlant::Impl {
+ public:
+  explicit Impl(const Scenario& scenario)
+      : config_(scenario.plant),
+        chain_(BuildChain(scenario.arm, scenario.plant)),
+        wall_(scenario.wall),
+        disturbance_(scenario.disturbance, scenario.seed),
+        equations_(chain_, wall_),
+        integrator_(equations_.size()),
+        brakes_(BuildBrakes(chain_)) {
+    if (!(config_.max_step_s > 0.0)) throw std::invalid_argument("plant.max_step_s must be positive");
+    const int n = chain_.dof();
+    x_ = x_dot_ = VectorXd::Zero(equations_.size());
+    begin_.motor_torque = end_.motor_torque = VectorXd::Zero(n);
+    truth_.motor_angle_rad = truth_.motor_speed_radps = truth_.joint_angle_rad = VectorXd::Zero(n);
+    Reset(truth_.motor_angle_rad);
+  }
+
+  void Reset(const VectorXd& motor_angle_rad) {
+    const int n = chain_.dof();
+    if (motor_angle_rad.size() != n)
+      throw std::invalid_argument("ArmPlant::Reset: one angle per motor is needed");
+    t_ = 0.0;
+    braked_ = false;
+    sick_coordinate_ = -1;
+    equations_.SetPayload(0.0);
+    loaded_ = false;
+    x_.head(n) = x_.tail(n) = motor_angle_rad;
+    x_dot_.setZero();
+    SettleJoints();
+    UpdateTruth();
+  }
+
+  void Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / config_.max_step_s - 1e-9)));
+    const double h = dt_s / steps;
+    begin_.motor_torque = end_.motor_torque = motor_torque_Nm;
+    OperateBrakes(braked);
+    for (int i = 0; i < steps && sick_coordinate_ < 0; ++i) {
+      TakePayload();
+      begin_.disturbance = disturbance_.Force(t_);
+      end_.disturbance = disturbance_.Force(t_ + h);
+      integrator_.Step(equations_, begin_, end_, h, x_, x_dot_);
+      t_ += h;
+      if (braked_)
+        for (std::size_t j = 0; j < brakes_.size(); ++j) brakes_[j].Follow(x_[static_cast<Eigen::Index>(j)]);
+      Diagnose();
+    }
+    UpdateTruth();
+  }
+
+  const Truth& truth() const { return truth_; }
+  bool healthy() const { return sick_coordinate_ < 0; }
+  int num_coordinates() const { return equations_.size(); }
+
+  std::string ailment() const {
+    if (healthy()) return "";
+    const int n = chain_.dof();
+    std::ostringstream text;
+    text << (sick_coordinate_ < n ? "motor " : "joint ") << sick_coordinate_ % n + 1 << " at angle "
+         << x_[sick_coordinate_] << " rad, speed " << x_dot_[sick_coordinate_] << " rad/s, t = " << t_
+         << " s";
+    return text.str();
+  }
+
+ private:
+  /// Static equilibrium with the motors held: Newton on the joint angles, the wall included.
+  void SettleJoints() {
+    const int n = chain_.dof();
+    Load hold;
+    hold.motor_torque = VectorXd::Zero(n);
+    hold.hold_motors = true;
+    Implicit newton;
+    newton.y_d = newton.y_k = VectorXd::Zero(equations_.size());
+    VectorXd step = VectorXd::Zero(equations_.size());
+    // The weight of K leaves nothing else to see: (M + c K) k = F gives c k = K⁻¹F.
+    newton.c_k = 1e6;
+    for (int i = 0; i < 50; ++i) {
+      equations_.SetState(x_, x_dot_);
+      equations_.Solve(hold, newton, step);
+      x_.tail(n) += newton.c_k * step.tail(n);
+      if (newton.c_k * step.tail(n).norm() < 1e-15) break;
+    }
+    equations_.SetState(x_, x_dot_);
+  }
+
+  void OperateBrakes(bool braked) {
+    if (braked && !braked_)
+      for (std::size_t j = 0; j < brakes_.size(); ++j) brakes_[j].Close(x_[static_cast<Eigen::Index>(j)]);
+    braked_ = braked;
+    begin_.brakes = end_.brakes = braked_ ? &brakes_ : nullptr;
+    if (braked_) begin_.motor_torque.setZero(), end_.motor_torque.setZero();
+  }
+
+  void TakePayload() {
+    if (loaded_ || config_.payload_step_kg == 0.0 || t_ < config_.payload_step_s) return;
+    equations_.SetPayload(config_.payload_step_kg);
+    loaded_ = true;
+  }
+
+  void Diagnose() {
+    for (Eigen::Index i = 0; i < x_.size() && sick_coordinate_ < 0; ++i)
+      if (!std::isfinite(x_[i]) || !(std::abs(x_dot_[i]) < kAbsurdSpeed))
+        sick_coordinate_ = static_cast<int>(i);
+  }
+
+  void UpdateTruth() {
+    const int n = chain_.dof();
+    truth_.t_s = t_;
+    truth_.motor_angle_rad = x_.head(n);
+    truth_.motor_speed_radps = x_dot_.head(n);
+    truth_.joint_angle_rad = x_.segment(n, n);
+    truth_.tip_m = equations_.tool_position();
+    truth_.tip_velocity_mps = equations_.tool_velocity();
+    truth_.contact_force_N = equations_.contact().force + disturbance_.Force(t_);
+    truth_.normal_force_N = equations_.contact().normal_force;
+    truth_.gap_m = equations_.contact().gap;
+    truth_.kinetic_J = equations_.KineticEnergy();
+    truth_.elastic_J = equations_.ElasticEnergy();
+    truth_.potential_J = equations_.GravityEnergy();
+  }
+
+  PlantConfig config_;
+  ArmChain chain_;
+  Wall wall_;
+  Disturbance disturbance_;
+  EquationsOfMotion equations_;
+  Rosenbrock integrator_;
+  std::vector<Brake> brakes_;
+  VectorXd x_, x_dot_;
+  Load begin_, end_;
+  Truth truth_;
+  double t_ = 0.0;
+  bool braked_ = false, loaded_ = false;
+  int sick_coordinate_ = -1;
+};
+
+ArmPlant::ArmPlant(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario)) {}
+ArmPlant::~ArmPlant() = default;
+void ArmPlant::Reset(const VectorXd& motor_angle_rad) { impl_->Reset(motor_angle_rad); }
+void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {
+  impl_->Advance(motor_torque_Nm, braked, dt_s);
+}
+const Truth& ArmPlant::truth() const { return impl_->truth(); }
+bool ArmPlant::healthy() const { return impl_->healthy(); }
+std::string ArmPlant::ailment() const { return impl_->ailment(); }
+int ArmPlant::num_coordinates() const { return impl_->num_coordinates(); }
+
+}  // namespace reed::plant

@@ -1,0 +1,33 @@
+#include "plant_sim/dynamics/disturbance.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace reed::plant {
+
+Disturbance::Disturbance(const DisturbanceConfig& config, std::int64_t seed) : config_(config) {
+  std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
+  // Not std::uniform_real_distribution: its result is the library's choice, and equal seeds must mean equal
+  // runs.
+  const auto phase = [&engine] {
+    return 2.0 * std::numbers::pi * static_cast<double>(engine() >> 11) * 0x1p-53;
+  };
+  for (const double hz : config.frequencies_hz) {
+    Sinusoid sinusoid{2.0 * std::numbers::pi * hz, Eigen::Vector3d::Zero()};
+    for (double& angle : sinusoid.phase) angle = phase();
+    sinusoids_.push_back(sinusoid);
+  }
+}
+
+Eigen::Vector3d Disturbance::Force(double t_s) const {
+  Eigen::Vector3d force = config_.bias_N;
+  for (const Sinusoid& s : sinusoids_) {
+    const Eigen::Vector3d wave = (s.angular_frequency * t_s + s.phase.array()).sin();
+    force += config_.amplitude_N.cwiseProduct(wave);
+  }
+  if (config_.step_s >= 0.0 && t_s >= config_.step_s) force += config_.step_N;
+  return force;
+}
+
+}  // namespace reed::plant

@@ -1,0 +1,27 @@
+// A force on the tool point that nobody measures: bias, sinusoids with seeded phases, one step. Base frame.
+// RT: safe after construction.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "config/schema/scenario.h"
+
+namespace reed::plant {
+
+class Disturbance {
+ public:
+  Disturbance(const DisturbanceConfig& config, std::int64_t seed);
+  Eigen::Vector3d Force(double t_s) const;  // N
+
+ private:
+  struct Sinusoid {
+    double angular_frequency;
+    Eigen::Vector3d phase;  // one per axis
+  };
+  DisturbanceConfig config_;
+  std::vector<Sinusoid> sinusoids_;
+};
+
+}  // namespace reed::plant

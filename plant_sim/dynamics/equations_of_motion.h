@@ -1,0 +1,93 @@
+// Lagrange's equations (19)-(21) of the whole chain, solved in one sweep to the base and one to the tip.
+//
+//   M(x) x'' + h(x, x') + ∂E_p/∂x + D x' = Q + J_toolᵀ F_in                         (21), x = [θ | q]
+//
+// The tree structure of M is used and M is never built: each element passes to its carrier the 6x6 inertia
+// and the wrench that are left once its own coordinates are eliminated, so one solution costs O(elements). A
+// linearly implicit integrator needs more than x'': it asks for the rate k of
+//   (M + c_d D + c_k K) k = F(x, x') + D y_d - K y_k
+// with K = ∂²E_p/∂x² of springs and contact, D = -∂F/∂x' of damping, friction and contact. c_d = c_k = 0
+// gives x'' itself. RT: safe after construction.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "plant_sim/dynamics/arm_chain.h"
+#include "plant_sim/dynamics/brake.h"
+#include "plant_sim/dynamics/wall.h"
+
+namespace reed::plant {
+
+/// What acts on the arm from outside at one instant.
+struct Load {
+  Eigen::VectorXd motor_torque;                           // N·m
+  const std::vector<Brake>* brakes = nullptr;             // null: open
+  bool hold_motors = false;                               // the motors cannot move at all
+  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();  // N, at the tool point, base frame
+};
+
+/// Right-hand side terms and weights of the implicit part, as defined above.
+struct Implicit {
+  double c_d = 0.0, c_k = 0.0;
+  Eigen::VectorXd y_d, y_k;
+  Eigen::Vector3d tool_y_d = Eigen::Vector3d::Zero(),
+                  tool_y_k = Eigen::Vector3d::Zero();  // J_tool y, base frame
+};
+
+class EquationsOfMotion {
+ public:
+  EquationsOfMotion(const ArmChain& chain, const Wall& wall);
+
+  int size() const { return 2 * n_; }
+
+  /// Kinematics of this state; everything below refers to it.
+  void SetState(const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot);
+
+  /// Point mass at the tool point in addition to the chain's bodies.
+  void SetPayload(double mass_kg);
+
+  /// k as defined above.
+  void Solve(const Load& load, const Implicit& implicit, Eigen::VectorXd& k);
+
+  /// J_tool k of the last Solve, base frame.
+  const Eigen::Vector3d& tool_rate() const { return tool_rate_; }
+
+  const Eigen::Vector3d& tool_position() const { return tool_position_; }
+  const Eigen::Vector3d& tool_velocity() const { return tool_velocity_; }
+  const Wall::Contact& contact() const { return contact_; }
+
+  double KineticEnergy() const;  // (17) and 1/2 J_m θ'²
+  double GravityEnergy() const;  // E_p1, zero with every mass at the base origin
+  double ElasticEnergy() const;  // E_p2 + E_p3
+  double ContactEnergy() const { return wall_.Energy(tool_position_); }
+
+ private:
+  struct Node {
+    Placement pose;   // output frame in the carrier's
+    Placement world;  // output frame in the base
+    Motion motion;
+    RigidBody body;  // payload included
+    // Elimination of the joint coordinate.
+    Inertia6 inertia;
+    Wrench force;
+    Eigen::Vector3d U_linear, U_angular;
+    double pivot = 1.0, rest = 0.0;
+    // Elimination of the motor coordinate.
+    double motor_pivot = 1.0, motor_rest = 0.0, coupling = 0.0;
+  };
+
+  void EliminateMotor(std::size_t i, const Load& load, const Implicit& implicit, double& torque,
+                      double& inertia);
+
+  const ArmChain& chain_;
+  const Wall& wall_;
+  int n_;
+  Eigen::VectorXd x_, x_dot_;
+  std::vector<Node> nodes_;
+  Placement tool_world_;
+  Eigen::Vector3d tool_position_, tool_velocity_, tool_rate_ = Eigen::Vector3d::Zero();
+  Wall::Contact contact_;
+};
+
+}  // namespace reed::plant

@@ -1,0 +1,64 @@
+#include "plant_sim/dynamics/rigid_body.h"
+
+namespace reed::plant {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Inertia about the origin from that about the centre of mass (sign +1), or back (-1).
+Matrix3d Steiner(const Matrix3d& inertia, double mass, const Vector3d& com, double sign) {
+  return inertia - sign * mass * Cross(com) * Cross(com);
+}
+
+RigidBody Sum(const RigidBody& a, const RigidBody& b, double sign) {
+  RigidBody sum;
+  sum.mass = a.mass + sign * b.mass;
+  const Vector3d first_moment = a.mass * a.com + sign * b.mass * b.com;
+  if (sum.mass > 0.0) sum.com = first_moment / sum.mass;
+  const Matrix3d about_origin =
+      Steiner(a.inertia, a.mass, a.com, 1.0) + sign * Steiner(b.inertia, b.mass, b.com, 1.0);
+  sum.inertia = Steiner(about_origin, sum.mass, sum.com, -1.0);
+  return sum;
+}
+
+}  // namespace
+
+RigidBody Join(const RigidBody& a, const RigidBody& b) { return Sum(a, b, 1.0); }
+RigidBody Without(const RigidBody& whole, const RigidBody& part) { return Sum(whole, part, -1.0); }
+
+RigidBody InParent(const Placement& placement, const RigidBody& body) {
+  return {body.mass, placement * body.com, placement.R * body.inertia * placement.R.transpose()};
+}
+
+Inertia6 InParent(const Placement& placement, const Inertia6& child) {
+  const Matrix3d& R = placement.R;
+  const Matrix3d p = Cross(placement.p);
+  const Matrix3d A = R * child.A * R.transpose();
+  const Matrix3d B0 = R * child.B * R.transpose();
+  const Matrix3d B = B0 - A * p;
+  const Matrix3d D = R * child.D * R.transpose() + p * B - B0.transpose() * p;
+  return {A, B, D};
+}
+
+Wrench InParent(const Placement& placement, const Wrench& child) {
+  const Vector3d force = placement.R * child.force;
+  return {force, placement.R * child.moment + placement.p.cross(force)};
+}
+
+Motion Carried(const Motion& parent, const Placement& placement) {
+  const Vector3d& w = parent.omega;
+  const Vector3d& p = placement.p;
+  const auto Rt = placement.R.transpose();
+  return {Rt * (parent.velocity + w.cross(p)), Rt * w,
+          Rt * (parent.bias_linear + parent.bias_angular.cross(p) + w.cross(w.cross(p))),
+          Rt * parent.bias_angular};
+}
+
+Rate Carried(const Rate& parent, const Placement& placement) {
+  const auto Rt = placement.R.transpose();
+  return {Rt * (parent.linear + parent.angular.cross(placement.p)), Rt * parent.angular};
+}
+
+}  // namespace reed::plant
