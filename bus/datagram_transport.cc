@@ -29,6 +29,25 @@ int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t de
   return count;
 }
 
+bool DatagramTransport::Take(Incoming incoming) noexcept {
+  switch (incoming) {
+    case Incoming::kFrame:
+      return true;
+    case Incoming::kMalformed:
+      ++counters_.malformed;
+      break;
+    case Incoming::kBusOff:
+      alive_ = false;
+      [[fallthrough]];
+    case Incoming::kErrorFrame:
+      ++counters_.error_frames;
+      break;
+    case Incoming::kNotForUs:
+      break;
+  }
+  return false;
+}
+
 int DatagramTransport::Drain(std::span<Frame> out) noexcept {
   std::size_t count = 0;
   for (int batch = 0; batch < kMaxBatchesPerDrain && count < out.size(); ++batch) {
@@ -36,7 +55,7 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
     const int got = received_.Receive(receive_fd_, limit);
     if (got < 0) NoteError(-got);
     for (int i = 0; i < got; ++i) {
-      if (Read(received_[i], out[count])) ++count;
+      if (Take(Read(received_[i], out[count]))) ++count;
     }
     if (got < limit) break;  // the queue is empty
   }

@@ -7,6 +7,7 @@
 
 #include "bus/datagram_batch.h"
 #include "bus/file_descriptor.h"
+#include "bus/incoming.h"
 #include "bus/transport.h"
 
 namespace reed::bus {
@@ -21,16 +22,14 @@ class DatagramTransport : public Transport {
  protected:
   /// Takes both sockets; they may be the same descriptor's number for a transport with one socket.
   void Use(int receive_fd, int send_fd) noexcept;
-  TransportCounters& counters() noexcept { return counters_; }
-  void BusLost() noexcept { alive_ = false; }
 
  private:
-  /// Reads one datagram; false (and counted) if it holds no frame for us.
-  virtual bool Read(const Datagram& datagram, Frame& out) noexcept = 0;
+  virtual Incoming Read(const Datagram& datagram, Frame& out) noexcept = 0;
   /// Writes `frame` as one datagram; returns its size.
   virtual std::size_t Write(const Frame& frame,
                             std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept = 0;
 
+  bool Take(Incoming incoming) noexcept;
   int Drain(std::span<Frame> out) noexcept;
   void NoteError(int error) noexcept;
 

@@ -201,21 +201,21 @@ std::size_t PackFrame(const Frame& frame, double timestamp_s,
   return w.size();
 }
 
-Unpacked UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept {
+Incoming UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept {
   const auto fields = ReadFields(bytes);
-  if (!fields) return Unpacked::kMalformed;
-  if (fields->error.IsTrue()) return Unpacked::kErrorFrame;
+  if (!fields) return Incoming::kMalformed;
+  if (fields->error.IsTrue()) return Incoming::kErrorFrame;
   const bool data_frame =
       fields->fd.IsTrue() && !fields->extended.IsTrue() && !fields->remote.IsTrue() &&
       fields->id.kind == Value::Kind::kUnsigned && fields->id.number <= 0x7FFU &&
       fields->data.kind == Value::Kind::kBinary && IsCanFdSize(fields->data.bytes.size()) &&
       fields->dlc.kind == Value::Kind::kUnsigned && fields->dlc.number == fields->data.bytes.size();
-  if (!data_frame) return Unpacked::kMalformed;
+  if (!data_frame) return Incoming::kMalformed;
   out = Frame{};
   out.id = static_cast<std::uint32_t>(fields->id.number);
   out.size = static_cast<std::uint8_t>(fields->data.bytes.size());
   std::copy(fields->data.bytes.begin(), fields->data.bytes.end(), out.data.begin());
-  return Unpacked::kFrame;
+  return Incoming::kFrame;
 }
 
 }  // namespace reed::bus

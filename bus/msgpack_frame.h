@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bus/frame.h"
+#include "bus/incoming.h"
 
 namespace reed::bus {
 
@@ -17,13 +18,8 @@ inline constexpr std::size_t kMaxPackedFrame = 256;  // 231 bytes for a 64-byte 
 std::size_t PackFrame(const Frame& frame, double timestamp_s,
                       std::span<std::uint8_t, kMaxPackedFrame> out) noexcept;
 
-enum class Unpacked : std::uint8_t {
-  kFrame,       // a CAN FD data frame with an 11-bit identifier
-  kErrorFrame,  // a CAN controller reported an error
-  kMalformed,   // anything else
-};
-
-/// Accepts every integer, float, string and binary width of msgpack and keys in any order.
-Unpacked UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept;
+/// kFrame, kErrorFrame or kMalformed. Accepts every integer, float, string and binary width of msgpack and
+/// keys in any order.
+Incoming UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept;
 
 }  // namespace reed::bus

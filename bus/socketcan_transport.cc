@@ -92,30 +92,22 @@ SocketCanTransport::SocketCanTransport(const std::string& interface)
   Use(fd, fd);
 }
 
-bool SocketCanTransport::Read(const Datagram& datagram, Frame& out) noexcept {
+Incoming SocketCanTransport::Read(const Datagram& datagram, Frame& out) noexcept {
+  const std::size_t size = datagram.bytes.size();
+  if (size != CANFD_MTU && size != CAN_MTU) return Incoming::kMalformed;
   canfd_frame in{};
-  if (datagram.bytes.size() != CANFD_MTU && datagram.bytes.size() != CAN_MTU) {
-    ++counters().malformed;
-    return false;
-  }
-  std::memcpy(&in, datagram.bytes.data(), datagram.bytes.size());
+  std::memcpy(&in, datagram.bytes.data(), size);
   if ((in.can_id & CAN_ERR_FLAG) != 0) {
-    ++counters().error_frames;
-    if ((in.can_id & CAN_ERR_BUSOFF) != 0)
-      BusLost();  // an arm must not wake up when the controller comes back
-    return false;
+    return (in.can_id & CAN_ERR_BUSOFF) != 0 ? Incoming::kBusOff : Incoming::kErrorFrame;
   }
-  const bool fd_data_frame = datagram.bytes.size() == CANFD_MTU &&
-                             (in.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) == 0 && IsCanFdSize(in.len);
-  if (!fd_data_frame) {
-    ++counters().malformed;
-    return false;
+  if (size != CANFD_MTU || (in.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0 || !IsCanFdSize(in.len)) {
+    return Incoming::kMalformed;
   }
   out = Frame{};
   out.id = in.can_id;
   out.size = in.len;
   std::memcpy(out.data.data(), in.data, in.len);
-  return true;
+  return Incoming::kFrame;
 }
 
 std::size_t SocketCanTransport::Write(const Frame& frame,

@@ -16,7 +16,7 @@ class SocketCanTransport final : public DatagramTransport {
   std::string interface() const override { return interface_; }
 
  private:
-  bool Read(const Datagram& datagram, Frame& out) noexcept override;
+  Incoming Read(const Datagram& datagram, Frame& out) noexcept override;
   std::size_t Write(const Frame& frame, std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept override;
 
   std::string interface_;

@@ -73,8 +73,11 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   SetOption(out, IPPROTO_IP, IP_MULTICAST_IF, OnLoopback(group.sin_addr), "multicast on loopback");
   SetOption(out, IPPROTO_IP, IP_MULTICAST_TTL, 0, "hop limit 0");
   SetOption(out, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "multicast loop");
-  if (connect(out, Generic(group), sizeof group) < 0) FailNoRoute(address);
   sockaddr_in own{};
+  own.sin_family = AF_INET;
+  own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (bind(out, Generic(own), sizeof own) < 0 || connect(out, Generic(group), sizeof group) < 0)
+    FailNoRoute(address);
   socklen_t size = sizeof own;
   getsockname(out, reinterpret_cast<sockaddr*>(&own), &size);
   own_port_ = own.sin_port;
@@ -113,20 +116,11 @@ bool UdpTransport::IsFromThisMachine(const sockaddr_in& source) const noexcept {
           std::find(local_addresses_.begin(), local_addresses_.end(), address) != local_addresses_.end());
 }
 
-bool UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
-  if (!IsFromThisMachine(datagram.source)) return false;
-  if (datagram.source.sin_port == own_port_) return false;
-  switch (datagram.truncated ? Unpacked::kMalformed : UnpackFrame(datagram.bytes, out)) {
-    case Unpacked::kFrame:
-      return true;
-    case Unpacked::kErrorFrame:
-      ++counters().error_frames;
-      return false;
-    case Unpacked::kMalformed:
-      break;
-  }
-  ++counters().malformed;
-  return false;
+Incoming UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
+  if (!IsFromThisMachine(datagram.source) || datagram.source.sin_port == own_port_)
+    return Incoming::kNotForUs;
+  if (datagram.truncated) return Incoming::kMalformed;
+  return UnpackFrame(datagram.bytes, out);
 }
 
 std::size_t UdpTransport::Write(const Frame& frame,

@@ -26,7 +26,7 @@ class UdpTransport final : public DatagramTransport {
   std::string interface() const override { return address_.group + ":" + std::to_string(address_.port); }
 
  private:
-  bool Read(const Datagram& datagram, Frame& out) noexcept override;
+  Incoming Read(const Datagram& datagram, Frame& out) noexcept override;
   std::size_t Write(const Frame& frame, std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept override;
   bool IsFromThisMachine(const sockaddr_in& source) const noexcept;
 
