@@ -19,23 +19,23 @@ struct DriveTransition {
   bus::DriveState to;
 };
 
-inline constexpr std::array kDriveTransitions{
+inline constexpr std::array kWaysUp{
     DriveTransition{bus::DriveState::kOff, bus::DriveRequest::kOff, bus::DriveRequest::kReady, false,
                     bus::DriveState::kReady},
     DriveTransition{bus::DriveState::kReady, bus::DriveRequest::kReady, bus::DriveRequest::kEnable, true,
                     bus::DriveState::kEnabled},
-    DriveTransition{bus::DriveState::kEnabled, bus::DriveRequest::kEnable, bus::DriveRequest::kReady, false,
-                    bus::DriveState::kReady},
 };
 
-/// The state after one valid command. Off is reached from everywhere by asking for it, except from fault,
-/// which only a restart of the drives clears; so the way out of braked is off, ready, enable, each asked for
-/// anew.
+/// The state after one valid command. Down it goes at once, whatever was asked before. Braked ends by asking
+/// for off only, so the way back to torque is off, ready, enable, each asked for anew; fault ends by a
+/// restart of the drives.
 constexpr bus::DriveState AfterCommand(bus::DriveState state, bus::DriveRequest previous,
                                        bus::DriveRequest request, bool at_rest) noexcept {
   if (state == bus::DriveState::kFault) return state;
   if (request == bus::DriveRequest::kOff) return bus::DriveState::kOff;
-  for (const DriveTransition& t : kDriveTransitions) {
+  if (state == bus::DriveState::kEnabled && request == bus::DriveRequest::kReady)
+    return bus::DriveState::kReady;
+  for (const DriveTransition& t : kWaysUp) {
     if (t.from == state && t.previous == previous && t.request == request && (at_rest || !t.needs_rest))
       return t.to;
   }

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+#include <lcm/eventlog.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <reed/event_t.hpp>
+#include <reed/plant_t.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "plant_sim/telemetry/publisher.h"
+#include "plant_sim/telemetry/rate_limit.h"
+#include "plant_sim/telemetry/record_queue.h"
+
+namespace reed::plant {
+namespace {
+
+PlantRecord NumberedRecord(int k) {
+  PlantRecord record;
+  record.utime = 1000 * k;
+  record.cycle = k;
+  record.t_s = 1e-3 * k;
+  record.dof = 2;
+  record.motor_angle = {0.5 * k, -1.0};
+  record.torque = {3.0, 4.0};
+  record.braked = k % 2 == 0;
+  record.tip = {0.1, 0.2, 0.3};
+  record.gap = 1e9;
+  record.potential_J = 7.0;
+  return record;
+}
+
+TEST(RecordQueue, RefusesWhenFullAndKeepsOrder) {
+  RecordQueue queue(4);
+  for (int k = 0; k < 4; ++k) EXPECT_TRUE(queue.TryPush(NumberedRecord(k)));
+  EXPECT_FALSE(queue.TryPush(NumberedRecord(4)));
+  Record record;
+  for (int k = 0; k < 4; ++k) {
+    ASSERT_TRUE(queue.TryPop(record));
+    EXPECT_EQ(std::get<PlantRecord>(record).cycle, k);
+  }
+  EXPECT_FALSE(queue.TryPop(record));
+}
+
+TEST(RecordQueue, HandsEverythingFromOneThreadToAnotherInOrder) {
+  RecordQueue queue(64);
+  constexpr int kCount = 20000;
+  std::thread producer([&] {
+    for (int k = 0; k < kCount; ++k) {
+      while (!queue.TryPush(NumberedRecord(k))) std::this_thread::yield();
+    }
+  });
+  Record record;
+  for (int k = 0; k < kCount; ++k) {
+    while (!queue.TryPop(record)) std::this_thread::yield();
+    const auto& plant = std::get<PlantRecord>(record);
+    if (plant.cycle != k || plant.motor_angle[0] != 0.5 * k) ADD_FAILURE() << "record " << k;
+  }
+  producer.join();
+}
+
+TEST(RateLimit, LetsAnEvenStreamAtTheLimitPassWholeAlthoughItComesInBatches) {
+  RateLimit limit(1000.0);
+  int passed = 0;
+  for (std::int64_t batch = 1; batch <= 500; ++batch) {
+    for (int i = 0; i < 2; ++i) passed += limit.Allow(batch * 2'000'000) ? 1 : 0;
+  }
+  EXPECT_EQ(passed, 1000);
+}
+
+TEST(RateLimit, HoldsAFasterStreamToTheLimit) {
+  RateLimit limit(1000.0);
+  int passed = 0;
+  for (std::int64_t k = 1; k <= 100'000; ++k) passed += limit.Allow(k * 100'000) ? 1 : 0;  // 10 kHz for 10 s
+  EXPECT_NEAR(passed, 10'000 + 100, 2);  // and the bucket's depth
+}
+
+class PublisherLog : public ::testing::Test {
+ protected:
+  PublisherLog() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = (std::filesystem::path(::testing::TempDir()) /
+             (std::string("reed_plant_") + info->name() + ".lcmlog"))
+                .string();
+  }
+  ~PublisherLog() override { std::filesystem::remove(path_); }
+  PublisherConfig Config() const { return {path_, false, false, WhenFull::kWait}; }
+
+  std::string path_;
+};
+
+TEST_F(PublisherLog, HoldsEveryRecordInOrderWithItsNumbersWhenTheProducerWaits) {
+  constexpr int kCount = 20000;
+  {
+    Publisher publisher(Config());
+    for (int k = 0; k < kCount; ++k) publisher.Put(NumberedRecord(k));
+    EventRecord event;
+    event.utime = 42;
+    event.code = PlantEvent::kBrakesReleased;
+    event.value = 1.5;
+    std::snprintf(event.text.data(), event.text.size(), "brakes released");
+    publisher.Put(event);
+    EXPECT_TRUE(publisher.Finish());
+    EXPECT_EQ(publisher.dropped(), 0);
+  }
+  lcm_eventlog_t* log = lcm_eventlog_create(path_.c_str(), "r");
+  ASSERT_NE(log, nullptr);
+  for (int k = 0; k < kCount; ++k) {
+    lcm_eventlog_event_t* entry = lcm_eventlog_read_next_event(log);
+    ASSERT_NE(entry, nullptr) << k;
+    plant_t m;
+    ASSERT_EQ(m.decode(entry->data, 0, entry->datalen), entry->datalen);
+    const PlantRecord expected = NumberedRecord(k);
+    EXPECT_STREQ(entry->channel, "REED_PLANT");
+    EXPECT_EQ(entry->timestamp, expected.utime);
+    EXPECT_EQ(m.utime, expected.utime);
+    EXPECT_EQ(m.cycle, k);
+    EXPECT_EQ(m.t_s, expected.t_s);
+    EXPECT_EQ(m.motor_angle, (std::vector<double>{0.5 * k, -1.0}));
+    EXPECT_EQ(m.torque, (std::vector<double>{3.0, 4.0}));
+    EXPECT_EQ(m.braked != 0, expected.braked);
+    EXPECT_EQ(m.tip[2], 0.3);
+    EXPECT_EQ(m.gap, 1e9);
+    EXPECT_EQ(m.potential_J, 7.0);
+    lcm_eventlog_free_event(entry);
+  }
+  lcm_eventlog_event_t* entry = lcm_eventlog_read_next_event(log);
+  ASSERT_NE(entry, nullptr);
+  event_t m;
+  ASSERT_EQ(m.decode(entry->data, 0, entry->datalen), entry->datalen);
+  EXPECT_STREQ(entry->channel, "REED_PLANT_EVENT");
+  EXPECT_EQ(m.utime, 42);
+  EXPECT_EQ(m.code, 203);
+  EXPECT_EQ(m.value, 1.5);
+  EXPECT_EQ(m.text, "brakes released");
+  lcm_eventlog_free_event(entry);
+  EXPECT_EQ(lcm_eventlog_read_next_event(log), nullptr);
+  lcm_eventlog_destroy(log);
+}
+
+TEST_F(PublisherLog, EqualRecordsMakeEqualFiles) {
+  const auto bytes = [this] {
+    {
+      Publisher publisher(Config());
+      for (int k = 0; k < 500; ++k) publisher.Put(NumberedRecord(k));
+    }
+    std::FILE* file = std::fopen(path_.c_str(), "rb");
+    std::string content(std::filesystem::file_size(path_), '\0');
+    EXPECT_EQ(std::fread(content.data(), 1, content.size(), file), content.size());
+    std::fclose(file);
+    return content;
+  };
+  const std::string first = bytes();
+  EXPECT_GT(first.size(), 100'000U);
+  EXPECT_EQ(first, bytes());
+}
+
+TEST_F(PublisherLog, AFullDiskIsReportedAndDelaysNobody) {
+  Publisher publisher({"/dev/full", false, false, WhenFull::kWait});
+  for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));
+  EXPECT_FALSE(publisher.Finish());
+}
+
+TEST_F(PublisherLog, APathThatCannotBeWrittenIsOneClearError) {
+  try {
+    Publisher publisher({"/no/such/folder/x.lcmlog", false, false, WhenFull::kWait});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/no/such/folder/x.lcmlog: No such file"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace reed::plant
