@@ -30,8 +30,9 @@ def families(items):
 
 
 def signature(message):
-    return [(s.name, s.start, s.length, s.is_float, s.minimum, s.maximum, s.conversion.scale, s.conversion.offset)
+    signals = [(s.name, s.start, s.length, s.is_float, s.minimum, s.maximum, s.conversion.scale, s.conversion.offset)
             for s in message.signals]
+    return message.length, signals
 
 
 def check(database):
@@ -53,7 +54,7 @@ def check(database):
                 raise SystemExit(f"{message.name}.{signal.name}: a float signal needs a range")
     for name, members in families(database.messages).items():
         if any(signature(m) != signature(members[0]) for m in members):
-            raise SystemExit(f"{name}: its numbered frames must have the same signals")
+            raise SystemExit(f"{name}: its numbered frames must have the same size and signals")
 
 
 def frame_literal(message):
