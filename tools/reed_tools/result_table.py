@@ -20,10 +20,10 @@ def number(value, digits: int = 4) -> str:
     return f"{value:.{digits}g}"
 
 
-def grid(title: str, *columns: str) -> Table:
+def grid(title: str, *columns: str, numbers: bool = True) -> Table:
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for k, column in enumerate(columns):
-        table.add_column(column, justify="left" if k == 0 else "right")
+        table.add_column(column, justify="right" if numbers and k > 0 else "left")
     return table
 
 
