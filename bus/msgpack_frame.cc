@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <optional>
 #include <string_view>
 
 namespace reed::bus {
@@ -77,58 +76,70 @@ class Reader {
   explicit Reader(Bytes in) noexcept : in_(in) {}
 
   /// Number of pairs of a map of any width.
-  std::optional<std::uint64_t> Map() noexcept {
-    const auto tag = BigEndian(1);
-    if (!tag) return std::nullopt;
-    if ((*tag & 0xF0U) == kFixMap) return *tag & 0xFU;
-    if (*tag == kMap16 || *tag == kMap32) return BigEndian(*tag == kMap16 ? 2 : 4);
-    return std::nullopt;
+  bool Map(std::uint64_t& pairs) noexcept {
+    std::uint64_t tag = 0;
+    if (!BigEndian(1, tag)) return false;
+    if ((tag & 0xF0U) == kFixMap) {
+      pairs = tag & 0xFU;
+      return true;
+    }
+    return (tag == kMap16 || tag == kMap32) && BigEndian(tag == kMap16 ? 2 : 4, pairs);
   }
 
-  std::optional<Value> Next() noexcept {
+  /// False at the end of the bytes and for arrays, maps and extensions, which have no place in a frame.
+  bool Next(Value& out) noexcept {
     using Kind = Value::Kind;
-    const auto first = BigEndian(1);
-    if (!first) return std::nullopt;
-    const std::uint64_t tag = *first;
-    if (tag < kFixMap) return Value{Kind::kUnsigned, tag, {}};
-    if ((tag & 0xE0U) == kFixStr) return Sized(Kind::kString, tag & 0x1FU);
-    if (tag == kNil) return Value{};
-    if (tag == kFalse || tag == kTrue) return Value{Kind::kBool, tag - kFalse, {}};
-    if (tag >= kBin8 && tag <= kBin32) return Sized(Kind::kBinary, BigEndian(1U << (tag - kBin8)));
-    if (tag == kFloat32 || tag == kFloat64) return Number(Kind::kFloat, tag == kFloat32 ? 4 : 8);
-    if (tag >= kUint8 && tag <= kUint64) return Number(Kind::kUnsigned, 1U << (tag - kUint8));
-    if (tag >= kInt8 && tag <= kInt64) return Signed(1U << (tag - kInt8));
-    if (tag >= kStr8 && tag <= kStr32) return Sized(Kind::kString, BigEndian(1U << (tag - kStr8)));
-    if (tag >= 0xE0U) return Value{Kind::kNegative, tag, {}};
-    return std::nullopt;  // arrays, maps and extensions have no place in a frame
+    std::uint64_t tag = 0;
+    if (!BigEndian(1, tag)) return false;
+    out.number = tag;
+    if (tag < kFixMap) return Is(out, Kind::kUnsigned);
+    if ((tag & 0xE0U) == kFixStr) return Sized(out, Kind::kString, tag & 0x1FU);
+    if (tag == kNil) return Is(out, Kind::kNil);
+    if (tag == kFalse || tag == kTrue) {
+      out.number = tag - kFalse;
+      return Is(out, Kind::kBool);
+    }
+    if (tag >= kBin8 && tag <= kBin32) return Prefixed(out, Kind::kBinary, 1U << (tag - kBin8));
+    if (tag == kFloat32 || tag == kFloat64) return Number(out, Kind::kFloat, tag == kFloat32 ? 4 : 8);
+    if (tag >= kUint8 && tag <= kUint64) return Number(out, Kind::kUnsigned, 1U << (tag - kUint8));
+    if (tag >= kInt8 && tag <= kInt64) return Signed(out, 1U << (tag - kInt8));
+    if (tag >= kStr8 && tag <= kStr32) return Prefixed(out, Kind::kString, 1U << (tag - kStr8));
+    return tag >= 0xE0U && Is(out, Kind::kNegative);
   }
 
   bool AtEnd() const noexcept { return in_.empty(); }
 
  private:
-  std::optional<std::uint64_t> BigEndian(std::size_t width) noexcept {
-    if (in_.size() < width) return std::nullopt;
-    std::uint64_t value = 0;
-    for (const std::uint8_t byte : in_.first(width)) value = value << 8 | byte;
+  bool BigEndian(std::size_t width, std::uint64_t& value) noexcept {
+    if (in_.size() < width) return false;
+    value = 0;
+    for (std::size_t i = 0; i < width; ++i) value = value << 8 | in_[i];
     in_ = in_.subspan(width);
-    return value;
+    return true;
   }
-  std::optional<Value> Number(Value::Kind kind, std::size_t width) noexcept {
-    const auto number = BigEndian(width);
-    if (!number) return std::nullopt;
-    return Value{kind, *number, {}};
+  static bool Is(Value& out, Value::Kind kind) noexcept {
+    out.kind = kind;
+    return true;
   }
-  std::optional<Value> Signed(std::size_t width) noexcept {
-    const auto value = Number(Value::Kind::kUnsigned, width);
-    if (value && (value->number >> (8 * width - 1)) != 0)
-      return Value{Value::Kind::kNegative, value->number, {}};
-    return value;
+  bool Number(Value& out, Value::Kind kind, std::size_t width) noexcept {
+    out.kind = kind;
+    return BigEndian(width, out.number);
   }
-  std::optional<Value> Sized(Value::Kind kind, std::optional<std::uint64_t> size) noexcept {
-    if (!size || in_.size() < *size) return std::nullopt;
-    const Value value{kind, 0, in_.first(*size)};
-    in_ = in_.subspan(*size);
-    return value;
+  bool Signed(Value& out, std::size_t width) noexcept {
+    if (!Number(out, Value::Kind::kUnsigned, width)) return false;
+    if ((out.number >> (8 * width - 1)) != 0) out.kind = Value::Kind::kNegative;
+    return true;
+  }
+  bool Sized(Value& out, Value::Kind kind, std::uint64_t size) noexcept {
+    if (in_.size() < size) return false;
+    out.kind = kind;
+    out.bytes = in_.first(size);
+    in_ = in_.subspan(size);
+    return true;
+  }
+  bool Prefixed(Value& out, Value::Kind kind, std::size_t width) noexcept {
+    std::uint64_t size = 0;
+    return BigEndian(width, size) && Sized(out, kind, size);
   }
 
   Bytes in_;
@@ -154,20 +165,17 @@ Value* Find(Fields& fields, std::string_view key) noexcept {
   return nullptr;
 }
 
-std::optional<Fields> ReadFields(Bytes bytes) noexcept {
+bool ReadFields(Bytes bytes, Fields& fields) noexcept {
   Reader reader(bytes);
-  const auto pairs = reader.Map();
-  if (!pairs) return std::nullopt;
-  Fields fields;
-  for (std::uint64_t i = 0; i < *pairs; ++i) {  // ends at the latest with the bytes
-    const auto key = reader.Next();
-    if (!key || key->kind != Value::Kind::kString) return std::nullopt;
-    const auto value = reader.Next();
-    if (!value) return std::nullopt;
-    if (Value* field = Find(fields, Text(key->bytes))) *field = *value;
+  std::uint64_t pairs = 0;
+  if (!reader.Map(pairs)) return false;
+  Value key, skipped;
+  for (std::uint64_t i = 0; i < pairs; ++i) {  // ends at the latest with the bytes
+    if (!reader.Next(key) || key.kind != Value::Kind::kString) return false;
+    Value* field = Find(fields, Text(key.bytes));
+    if (!reader.Next(field != nullptr ? *field : skipped)) return false;
   }
-  if (!reader.AtEnd()) return std::nullopt;
-  return fields;
+  return reader.AtEnd();
 }
 
 }  // namespace
@@ -202,19 +210,19 @@ std::size_t PackFrame(const Frame& frame, double timestamp_s,
 }
 
 Incoming UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept {
-  const auto fields = ReadFields(bytes);
-  if (!fields) return Incoming::kMalformed;
-  if (fields->error.IsTrue()) return Incoming::kErrorFrame;
-  const bool data_frame =
-      fields->fd.IsTrue() && !fields->extended.IsTrue() && !fields->remote.IsTrue() &&
-      fields->id.kind == Value::Kind::kUnsigned && fields->id.number <= 0x7FFU &&
-      fields->data.kind == Value::Kind::kBinary && IsCanFdSize(fields->data.bytes.size()) &&
-      fields->dlc.kind == Value::Kind::kUnsigned && fields->dlc.number == fields->data.bytes.size();
+  Fields f;
+  if (!ReadFields(bytes, f)) return Incoming::kMalformed;
+  if (f.error.IsTrue()) return Incoming::kErrorFrame;
+  const Bytes data = f.data.bytes;
+  const bool data_frame = f.fd.IsTrue() && !f.extended.IsTrue() && !f.remote.IsTrue() &&
+                          f.id.kind == Value::Kind::kUnsigned && f.id.number <= 0x7FFU &&
+                          f.data.kind == Value::Kind::kBinary && IsCanFdSize(data.size()) &&
+                          f.dlc.kind == Value::Kind::kUnsigned && f.dlc.number == data.size();
   if (!data_frame) return Incoming::kMalformed;
   out = Frame{};
-  out.id = static_cast<std::uint32_t>(fields->id.number);
-  out.size = static_cast<std::uint8_t>(fields->data.bytes.size());
-  std::copy(fields->data.bytes.begin(), fields->data.bytes.end(), out.data.begin());
+  out.id = static_cast<std::uint32_t>(f.id.number);
+  out.size = static_cast<std::uint8_t>(data.size());
+  std::copy(data.begin(), data.end(), out.data.begin());
   return Incoming::kFrame;
 }
 

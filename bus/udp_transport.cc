@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
-#include <linux/filter.h>
 #include <net/if.h>
 
 #include <algorithm>
@@ -54,16 +53,6 @@ ip_mreqn OnLoopback(in_addr group) {
   return request;
 }
 
-/// The kernel drops what comes from our own port before it is queued: own frames neither fill the queue nor
-/// wake the loop. A kernel without socket filters is no loss, since Read compares the port too.
-void DropOwnFrames(int fd, in_port_t own_port) {
-  std::array<sock_filter, 4> program{{BPF_STMT(BPF_LD | BPF_H | BPF_ABS, 0),  // UDP header: source port
-                                      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ntohs(own_port), 0, 1),
-                                      BPF_STMT(BPF_RET | BPF_K, 0), BPF_STMT(BPF_RET | BPF_K, 0xFFFFFFFFU)}};
-  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-  setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter);
-}
-
 }  // namespace
 
 UdpTransport::UdpTransport(const UdpAddress& address)
@@ -83,7 +72,6 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   own_port_ = own.sin_port;
 
   const int in = receive_socket_.get();
-  DropOwnFrames(in, own_port_);
   SetOption(in, SOL_SOCKET, SO_REUSEADDR, 1, "shared address");
   SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
   SetReceiveQueue(in);

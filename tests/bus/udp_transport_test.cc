@@ -111,6 +111,20 @@ TEST_F(UdpBus, OwnFramesAreNotReceived) {
   EXPECT_EQ(a_.counters().frames_rx, 1U);
 }
 
+TEST_F(UdpBus, OwnFramesAreNoLossAndCostNoWaiting) {
+  for (int round = 0; round < 50; ++round) {
+    const std::array mine{NumberedFrame(1), NumberedFrame(2)};
+    const std::array theirs{NumberedFrame(3)};
+    ASSERT_EQ(a_.Send(mine), 2);
+    ASSERT_EQ(b_.Send(theirs), 1);
+    std::vector<Frame> out(64);
+    ASSERT_EQ(a_.Receive(out, 1, 0), 1) << "own frames in front of the others' are passed over at once";
+  }
+  EXPECT_EQ(a_.counters().frames_rx, 50U);
+  EXPECT_EQ(a_.counters().overflowed, 0U);
+  EXPECT_EQ(a_.counters().malformed, 0U);
+}
+
 TEST_F(UdpBus, DeadlineInThePastTakesAllThatHasArrived) {
   std::vector<Frame> sent;
   for (int n = 0; n < 100; ++n) sent.push_back(NumberedFrame(n));
