@@ -1,0 +1,150 @@
+"""How a run starts and ends: bad input, exit statuses, Ctrl-C, buses. The two programs are stand-ins (conftest.py)."""
+
+import json
+import signal
+import time
+
+import pytest
+
+from reed_tools import bus_choice
+
+BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
+
+
+def one_line(done, status):
+    assert done.returncode == status, done.stdout + done.stderr
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("reed: "), done.stderr
+    return lines[0]
+
+
+@pytest.mark.parametrize("argv, told", [
+    (["run", "press_knwon"], "press_known"),
+    (["run", "/nowhere/x.toml"], "/nowhere/x.toml"),
+    (["run", "--arm", "a99"], "a5"),
+    (["run", "--set", "wall.stifness_Npm=1"], "stiffness_Npm"),
+    (["run", "--set", "wall.stiffness_Npm=stiff"], "stiffness_Npm"),
+    (["run", "--duration", "nan"], "duration_s"),
+    (["run", "--rate", "-5"], "rate_hz"),
+    (["run", "--seed", "1.5"], "seed"),
+    (["run", "--clock", "sundial"], "wall"),
+    (["run", "--bus", "token-ring"], "socketcan:IFACE"),
+    (["run", "--bus", "udp:10.0.0.1:4000"], "multicast"),
+    (["run", "--bus", "udp:239.74.163.2:0"], "65535"),
+    (["run", "--bus", "udp:239.74.163.2"], "GROUP"),
+    (["run", "--bus", "socketcan:can77"], "can77"),
+    (["run", "--out", "/proc/nowhere"], "/proc/nowhere"),
+    (["run", "--bogus"], "--bogus"),
+    (["report", "/nowhere"], "effective.toml"),
+    (["frobnicate"], "commands:"),
+])
+def test_bad_input_is_one_line_and_status_2(reed, argv, told):
+    argv = [*argv, "--bus", BUS] if argv[0] == "run" and "--bus" not in argv else argv
+    assert told in one_line(reed(*argv), 2)
+
+
+def test_a_refused_configuration_leaves_no_run_folder(reed, tmp_path):
+    one_line(reed("run", "--bus", BUS, "--out", tmp_path / "run", "--duration", "-1"), 2)
+    assert not (tmp_path / "run").exists()
+
+
+def test_an_unknown_check_is_refused_with_the_known_ones(reed, tmp_path):
+    scenario = tmp_path / "odd.toml"
+    text = (bus_choice.Path(__file__).parents[2] / "config/scenarios/press_known.toml").read_text()
+    scenario.write_text(text + '[[checks]]\nname = "beauty"\nlimit = 1.0\n')
+    line = one_line(reed("run", scenario, "--bus", BUS), 2)
+    assert "beauty" in line and "impact_peak_N" in line
+
+
+def test_a_run_folder_holds_everything_and_both_programs_got_the_same_options(reed, tmp_path):
+    done = reed("run", "--bus", BUS, "--clock", "lockstep", "--seed", "5", "--out", tmp_path)
+    assert done.returncode == 1, done.stderr  # the stand-in's force error fails the scenario's checks
+    present = {path.name for path in tmp_path.iterdir()}
+    assert {"summary.json", "report.html", "telemetry.lcmlog", "effective.toml", "joint_error.png", "force.png", "torque.png",
+            "parameters.png", "timing.png"} <= present
+    assert not {"firmware.lcmlog", "plant.lcmlog"} & present
+    common = f"--config {tmp_path}/effective.toml --bus {BUS} --clock lockstep --log {tmp_path}/"
+    assert (tmp_path / "plant.options").read_text() == common + "plant.lcmlog"
+    assert (tmp_path / "firmware.options").read_text() == f"{common}firmware.lcmlog --candump {tmp_path}/bus.candump"
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert (summary["scenario"], summary["arm"], summary["seed"], summary["clock"]) == ("press_known", "a5", 5, "lockstep")
+    assert "FAIL" in done.stdout and summary["digest"][:16] in done.stdout
+    assert "\x1b" not in done.stdout  # no terminal: plain lines
+
+
+def test_report_rebuilds_the_same_summary(reed, tmp_path):
+    reed("run", "--bus", BUS, "--out", tmp_path)
+    before = (tmp_path / "summary.json").read_text()
+    (tmp_path / "summary.json").unlink()
+    (tmp_path / "report.html").unlink()
+    assert reed("report", tmp_path).returncode == 1
+    assert (tmp_path / "summary.json").read_text() == before
+    assert (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize("who", ["FIRMWARE", "PLANT"])
+def test_a_program_that_dies_is_status_3_and_its_record_is_kept(reed, tmp_path, who):
+    done = reed("run", "--bus", BUS, "--out", tmp_path, **{f"REED_FAKE_{who}": "die"})
+    line = one_line(done, 3)
+    assert "ended with status 3: bus lost" in line and {"FIRMWARE": "firmware", "PLANT": "plant"}[who] in line
+    assert json.loads((tmp_path / "summary.json").read_text())["cycles"] == 1100
+
+
+@pytest.mark.parametrize("who", ["FIRMWARE", "PLANT"])
+def test_a_program_that_refuses_its_options_is_status_2(reed, tmp_path, who):
+    done = reed("run", "--bus", BUS, "--out", tmp_path, **{f"REED_FAKE_{who}": "refuse"})
+    assert "at most 8 are allowed" in one_line(done, 2)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp_path, number):
+    process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
+    wait_for(tmp_path / "plant.lcmlog", tmp_path / "firmware.lcmlog")
+    process.send_signal(number)
+    out, err = process.communicate(timeout=60)
+    assert (tmp_path / "stopped").read_text() == "firmware\nplant\n"
+    assert process.returncode == 1 and "interrupted" in out, err
+    assert json.loads((tmp_path / "summary.json").read_text())["cycles"] == 1100
+
+
+def test_a_bus_in_use_by_another_run_is_refused(reed, tmp_path):
+    first = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
+    try:
+        wait_for(tmp_path / "firmware.lcmlog")
+        line = one_line(reed("run", "--bus", BUS), 2)
+        assert "another run is using" in line and "--bus udp:" in line
+    finally:
+        first.send_signal(signal.SIGINT)
+        first.communicate(timeout=60)
+
+
+def test_a_missing_multicast_route_is_told_with_its_fix(monkeypatch):
+    monkeypatch.setattr(bus_choice, "multicast_works", lambda: False)
+    monkeypatch.setattr(bus_choice, "as_root", lambda command: False)
+    with pytest.raises(bus_choice.UsageError, match="ip route add 224.0.0.0/4 dev lo"):
+        bus_choice.choose("udp")
+
+
+def test_auto_prefers_vcan_and_falls_back_to_udp(monkeypatch):
+    monkeypatch.setattr(bus_choice, "vcan_ready", lambda name: True)
+    assert bus_choice.choose("auto") == "socketcan:vcan0"
+    monkeypatch.setattr(bus_choice, "vcan_ready", lambda name: False)
+    monkeypatch.setattr(bus_choice, "multicast_works", lambda: True)
+    assert bus_choice.choose("auto") == "udp:239.74.163.2:43113"
+
+
+def test_doctor_names_a_fix_for_everything_that_is_missing(reed):
+    done = reed("doctor")
+    assert done.returncode == 0
+    for subject in ("SocketCAN", "loopback multicast", "SCHED_FIFO", "memory lock", "CPU governor", "Java for spy"):
+        assert subject in done.stdout
+    missing = [line.split("  ")[0].strip() for line in done.stdout.splitlines() if " no  " in line]
+    assert all(f"\n{subject}: " in done.stdout for subject in missing)
+
+
+def wait_for(*paths):
+    deadline = time.monotonic() + 60
+    while not all(path.exists() for path in paths):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    time.sleep(0.2)
