@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import NullLocator
 
 from reed_tools.signals import SOURCES, Signals
 from reed_tools.telemetry_log import Recording
@@ -43,12 +44,21 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
 
 
 def panels(count: int, height_in: float):
-    figure, axes = plt.subplots(count, 1, sharex=True, figsize=(WIDTH_IN, height_in), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(count, 1, sharex=True, figsize=(WIDTH_IN, height_in), squeeze=False)
+    set_margins(figure)
     return figure, axes[:, 0]
 
 
-def legend_right(axis, **options) -> None:
-    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), **options)
+def set_margins(figure, right_in: float = 0.15, top_in: float = 0.3, **spaces) -> None:
+    """Fixed margins: the same axes in every picture, and no search for a layout."""
+    width, height = figure.get_size_inches()
+    figure.subplots_adjust(left=0.72 / width, right=1 - right_in / width, bottom=0.48 / height, top=1 - top_in / height,
+                           **{"hspace": 0.14, **spaces})
+
+
+def legend_right(figure, axis) -> None:
+    set_margins(figure, right_in=1.35)
+    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def mark_switches(figure, signals: Signals | None, name: str) -> None:
@@ -71,7 +81,7 @@ def joint_error(signals: Signals):
     whole.set_ylabel("joint error [mrad]")
     tangential.set_ylabel("tangential part [mrad]")
     tangential.set_xlabel(TIME)
-    legend_right(whole)
+    legend_right(figure, whole)
     return figure
 
 
@@ -84,7 +94,7 @@ def tip_error(signals: Signals):
     axis.set_title("Tip error: true bent tip − planned tip, base axes", loc="left")
     axis.set_ylabel("tip error [mm]")
     axis.set_xlabel(TIME)
-    legend_right(axis)
+    legend_right(figure, axis)
     return figure
 
 
@@ -95,7 +105,7 @@ def force(signals: Signals):
     axis.plot(signals.t, signals.force_desired, color="black", linestyle="--", label="desired")
     axis.set_title("Normal force of the wall on the robot", loc="left")
     axis.set_ylabel("force [N]")
-    legend_right(axis)
+    legend_right(figure, axis)
     error.plot(signals.t, signals.force_desired - signals.force_true, color="#D55E00")
     error.set_ylabel("desired − true [N]")
     error.set_xlabel(TIME)
@@ -121,7 +131,8 @@ def parameters(signals: Signals, arm: dict):
         return None
     columns = 3 if count > 4 else min(2, count)
     rows = -(-count // columns)
-    figure, axes = plt.subplots(rows, columns, sharex=True, figsize=(WIDTH_IN, 1.7 * rows + 0.7), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(rows, columns, sharex=True, figsize=(WIDTH_IN, 1.7 * rows + 0.9), squeeze=False)
+    set_margins(figure, top_in=0.6, hspace=0.35, wspace=0.28)
     for k, axis in enumerate(axes.flat):
         if k >= count:
             axis.set_axis_off()
@@ -147,7 +158,8 @@ def timing(recording: Recording, summary: dict):
     period_us = 1e6 / summary["rate_hz"]
     top = max(float(table[f"{name}_ns"].max()) for name in names) * 1e-3
     bins = np.geomspace(0.1, max(2 * period_us, top, 1.0), 140)
-    figure, axes = panels(len(names), 1.15 * len(names) + 0.8)
+    figure, axes = panels(len(names), 1.2 * len(names) + 0.8)
+    set_margins(figure, top_in=0.6, hspace=0.34)
     for axis, name, colour in zip(axes, names, COLOURS):
         values = np.clip(table[f"{name}_ns"] * 1e-3, bins[0], None)
         axis.hist(values, bins=bins, color=colour)
@@ -157,8 +169,10 @@ def timing(recording: Recording, summary: dict):
         axis.set_title(f"p50 {figures['p50']:.1f}   p99 {figures['p99']:.1f}   max {figures['max']:.0f} µs", loc="right", fontsize=8)
         axis.set_xscale("log")
         axis.set_yscale("log")
+        axis.yaxis.set_minor_locator(NullLocator())
         axis.set_ylim(bottom=0.7)
         axis.set_ylabel(f"{name}\n[cycles]")
-    axes[0].set_title(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", loc="left")
+    figure.suptitle(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", x=0.01, ha="left",
+                    fontsize=10)
     axes[-1].set_xlabel("duration [µs]")
     return figure
