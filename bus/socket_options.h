@@ -4,16 +4,19 @@
 #include <sys/socket.h>
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace reed::bus {
+
+/// What the last system call complained about.
+inline std::string ErrnoText() { return std::generic_category().message(errno); }
 
 template <typename T>
 void SetOption(int fd, int level, int name, const T& value, const char* what) {
   if (setsockopt(fd, level, name, &value, sizeof value) < 0) {
-    throw std::runtime_error(std::string("socket option refused (") + what + "): " + std::strerror(errno));
+    throw std::runtime_error(std::string("socket option refused (") + what + "): " + ErrnoText());
   }
 }
 

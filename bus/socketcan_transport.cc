@@ -25,8 +25,7 @@ ifreq Ask(int fd, const std::string& interface, unsigned long request) {
   ifreq answer{};
   std::memcpy(answer.ifr_name, interface.data(), interface.size());
   if (ioctl(fd, request, &answer) < 0) {
-    Fail(interface, std::string("cannot be queried: ") + std::strerror(errno),
-         "see ip -details link show " + interface);
+    Fail(interface, "cannot be queried: " + ErrnoText(), "see ip -details link show " + interface);
   }
   return answer;
 }
@@ -37,8 +36,7 @@ FileDescriptor OpenSocket(const std::string& interface) {
   if (fd.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)) {
     Fail(interface, "this kernel has no CAN", "sudo modprobe can_raw, or use the bus vm or udp");
   }
-  if (fd.get() < 0)
-    Fail(interface, std::string("no CAN socket: ") + std::strerror(errno), "see tools/reed doctor");
+  if (fd.get() < 0) Fail(interface, "no CAN socket: " + ErrnoText(), "see tools/reed doctor");
   return fd;
 }
 
@@ -86,8 +84,7 @@ SocketCanTransport::SocketCanTransport(const std::string& interface)
   SetFilters(fd);
   SetReceiveQueue(fd);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0) {
-    Fail(interface, std::string("cannot be used: ") + std::strerror(errno),
-         "see ip -details link show " + interface);
+    Fail(interface, "cannot be used: " + ErrnoText(), "see ip -details link show " + interface);
   }
   Use(fd, fd);
 }

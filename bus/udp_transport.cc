@@ -22,7 +22,7 @@ namespace {
 }
 
 [[noreturn]] void FailNoRoute(const UdpAddress& address) {
-  Fail(address, std::string("no multicast on loopback (") + std::strerror(errno) + ")",
+  Fail(address, "no multicast on loopback (" + ErrnoText() + ")",
        "sudo ip link set lo up multicast on; sudo ip route add 224.0.0.0/4 dev lo");
 }
 
@@ -42,7 +42,7 @@ sockaddr_in Parse(const UdpAddress& address) {
 
 FileDescriptor OpenSocket(const UdpAddress& address) {
   FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (fd.get() < 0) Fail(address, std::string("no UDP socket: ") + std::strerror(errno), "enable IPv4");
+  if (fd.get() < 0) Fail(address, "no UDP socket: " + ErrnoText(), "enable IPv4");
   return fd;
 }
 
@@ -76,8 +76,7 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
   SetReceiveQueue(in);
   if (bind(in, Generic(group), sizeof group) < 0) {
-    Fail(address, std::string("cannot bind: ") + std::strerror(errno),
-         "another program owns this port, choose another");
+    Fail(address, "cannot bind: " + ErrnoText(), "another program owns this port, choose another");
   }
   const ip_mreqn membership = OnLoopback(group.sin_addr);
   if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) < 0) FailNoRoute(address);

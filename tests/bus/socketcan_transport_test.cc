@@ -240,6 +240,18 @@ TEST_F(SocketCan, BusIsLostWhenTheInterfaceGoesDownWhileSending) {
   EXPECT_EQ(a_.counters().tx_refused, 2U);
 }
 
+TEST(SocketCanInterface, BusIsLostWhenTheInterfaceIsRemoved) {
+  ASSERT_EQ(std::system("ip link add reed_gone0 type vcan && ip link set reed_gone0 mtu 72 up"), 0)
+      << "needs CAP_NET_ADMIN";
+  SocketCanTransport transport("reed_gone0");
+  ASSERT_EQ(std::system("ip link del reed_gone0"), 0);
+  std::vector<Frame> out(8);
+  for (int look = 0; look < 3 && transport.alive(); ++look) {
+    EXPECT_EQ(transport.Receive(out, 1, Now_ns() + 10 * kSecond_ns), 0);
+  }
+  EXPECT_FALSE(transport.alive());
+}
+
 TEST_F(SocketCan, OpeningADownInterfaceSaysHowToBringItUp) {
   const InterfaceControl control;
   ASSERT_TRUE(control.Up(false)) << "needs CAP_NET_ADMIN";
