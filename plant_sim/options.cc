@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 
 namespace reed::plant {
 
@@ -17,11 +16,10 @@ Options ParseOptions(int argc, char** argv) {
                  "arm: a name in config/arms or a TOML file; default: the scenario's");
   app.add_option("--set", options.load.set, "SECTION.KEY=VALUE, may be repeated")->allow_extra_args(false);
   app.add_option("--bus", options.bus, "socketcan:IFACE or udp[:GROUP:PORT]")->capture_default_str();
-  app.add_option("--clock", options.clock, "wall: the arm moves on its own; lockstep: one period per SYNC")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ClockKind>{
-                                              {"wall", ClockKind::kWall}, {"lockstep", ClockKind::kLockstep}})
-                      .description("{wall,lockstep}"))
-      ->default_str("wall");
+  std::string clock = "wall";
+  app.add_option("--clock", clock, "wall: the arm moves on its own; lockstep: one period per SYNC")
+      ->check(CLI::IsMember({"wall", "lockstep"}))
+      ->capture_default_str();
   app.add_option("--log", options.log, "LCM event log that gets every message");
   app.add_option("--duration", options.duration_s, "stop after so many seconds of plant time")
       ->check(CLI::PositiveNumber);
@@ -35,6 +33,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_plant_sim: %s (reed_plant_sim --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
+  options.clock = clock == "wall" ? ClockKind::kWall : ClockKind::kLockstep;
   return options;
 }
 

@@ -1,7 +1,9 @@
 #include "plant_sim/telemetry/lcm_sinks.h"
 
+#include <fcntl.h>
 #include <lcm/eventlog.h>
 #include <lcm/lcm.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -11,6 +13,30 @@
 #include <vector>
 
 namespace reed::plant {
+namespace {
+
+/// liblcm explains a missing route in a dozen lines on standard error; one line of ours replaces them.
+class QuietStandardError {
+ public:
+  QuietStandardError() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    std::fflush(stderr);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~QuietStandardError() {
+    std::fflush(stderr);
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  QuietStandardError(const QuietStandardError&) = delete;
+  QuietStandardError& operator=(const QuietStandardError&) = delete;
+
+ private:
+  int kept_;
+};
+
+}  // namespace
 
 EventLogFile::EventLogFile(const std::string& path) : log_(lcm_eventlog_create(path.c_str(), "w")) {
   if (!log_) throw std::runtime_error("cannot write the log " + path + ": " + std::strerror(errno));
@@ -37,7 +63,10 @@ LcmNetwork::LcmNetwork() {
   const char* asked =
       std::getenv("LCM_DEFAULT_URL");  // NOLINT(concurrency-mt-unsafe): before any thread starts
   const std::string url = asked != nullptr && *asked != '\0' ? asked : "udpm://239.255.76.67:7667?ttl=0";
-  lcm_.reset(lcm_create(url.c_str()));
+  {
+    const QuietStandardError quiet;
+    lcm_.reset(lcm_create(url.c_str()));
+  }
   if (lcm_) return;
   trouble_ = "LCM network off: cannot open " + url;
   if (url.starts_with("udpm")) {
