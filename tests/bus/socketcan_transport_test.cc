@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "bus/messages.h"
+#include "tests/support/no_alloc.h"
 
 namespace reed::bus {
 namespace {
@@ -151,6 +152,23 @@ TEST_F(SocketCan, ErrorFramesAreCountedAndBusOffIsTheEnd) {
   EXPECT_EQ(Take(a_, 1).size(), 0U) << "and it does not wait for a bus that is gone";
   EXPECT_EQ(a_.counters().error_frames, 2U);
   EXPECT_FALSE(a_.alive());
+}
+
+TEST_F(SocketCan, CycleTouchesNoHeap) {
+  Encoder encoder;
+  Decoder decoder;
+  std::array<Frame, 8> out{}, in{};
+  {
+    const test::NoAlloc guard("one cycle of encode, send, receive, decode");
+    out = {encoder.Sync({1}),         encoder.JointState(0, {}), encoder.JointState(1, {}),
+           encoder.JointState(2, {}), encoder.JointState(3, {}), encoder.JointState(4, {}),
+           encoder.Wrench({}),        encoder.Command({})};
+    a_.Send(out);
+    const int got = b_.Receive(in, 8, Now_ns() + 10 * kSecond_ns);
+    for (int i = 0; i < got; ++i) decoder.Decode(in[static_cast<std::size_t>(i)]);
+    b_.Receive(in, 1, Now_ns() + kSecond_ns / 1000);  // a wait that ends with the deadline
+  }
+  EXPECT_EQ(decoder.counters().accepted, 8U);
 }
 
 TEST_F(SocketCan, WaitsForTheDeadlineWhenNothingComes) {
