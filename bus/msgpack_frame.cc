@@ -126,9 +126,8 @@ class Reader {
     return BigEndian(width, out.number);
   }
   bool Signed(Value& out, std::size_t width) noexcept {
-    if (!Number(out, Value::Kind::kUnsigned, width)) return false;
-    if ((out.number >> (8 * width - 1)) != 0) out.kind = Value::Kind::kNegative;
-    return true;
+    const bool negative = !in_.empty() && in_[0] >= 0x80;
+    return Number(out, negative ? Value::Kind::kNegative : Value::Kind::kUnsigned, width);
   }
   bool Sized(Value& out, Value::Kind kind, std::uint64_t size) noexcept {
     if (in_.size() < size) return false;

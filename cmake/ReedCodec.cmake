@@ -3,6 +3,10 @@
 # E2E data ids, bounds, hash). Touching the DBC or the script regenerates both.
 set(REED_PYTHON ${PROJECT_SOURCE_DIR}/build/venv/bin/python3 CACHE FILEPATH "Python that has cantools (tools/requirements)")
 
+if(NOT EXISTS ${REED_PYTHON})
+  message(FATAL_ERROR "REED_PYTHON=${REED_PYTHON} does not exist; tools/reed makes it, or give a Python 3.11 that has cantools")
+endif()
+
 function(reed_add_codec target dbc)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/generated)
   set(layout_script ${PROJECT_SOURCE_DIR}/bus/generate_layout.py)
