@@ -6,15 +6,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <stdexcept>
+
+#include "firmware/rt/errno_text.h"
 
 namespace reed::rt {
 namespace {
 
 /// More than the deepest call of the loop needs, by far; a thread's default stack is 8 MiB.
-constexpr std::size_t kStackBytes = 512 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 constexpr std::size_t kSmallestPage = 4096;
 
 /// Touches the stack below the caller, so that the loop finds its pages mapped. Its own frame must really
@@ -99,11 +100,10 @@ void RealtimeScope::LockMemory() {
     report_.memory = {true, true, {}, {}};
     return;
   }
-  report_.memory =
-      Refused(std::string("memory not locked: ") + std::strerror(errno) + " (limit " +
-                  HardLimit(RLIMIT_MEMLOCK) + " bytes)",
-              "write \"* - memlock unlimited\" to /etc/security/limits.d/90-reed.conf and log in again, "
-              "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
+  report_.memory = Refused(
+      std::string("memory not locked: ") + ErrnoText() + " (limit " + HardLimit(RLIMIT_MEMLOCK) + " bytes)",
+      "write \"* - memlock unlimited\" to /etc/security/limits.d/90-reed.conf and log in again, "
+      "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
 }
 
 void RealtimeScope::Pin(int cpu) {
@@ -116,7 +116,7 @@ void RealtimeScope::Pin(int cpu) {
     return;
   }
   report_.affinity =
-      Refused("not pinned to core " + std::to_string(cpu) + ": " + std::strerror(errno),
+      Refused("not pinned to core " + std::to_string(cpu) + ": " + ErrnoText(),
               "the core is offline or outside this container's cpuset; choose one that nproc counts, "
               "or set timing.cpu = -1");
 }
@@ -130,7 +130,7 @@ void RealtimeScope::Raise(int priority) {
     report_.scheduler = "fifo:" + std::to_string(priority);
     return;
   }
-  report_.fifo = Refused("SCHED_FIFO " + std::to_string(priority) + " refused: " + std::strerror(errno) +
+  report_.fifo = Refused("SCHED_FIFO " + std::to_string(priority) + " refused: " + ErrnoText() +
                              " (rtprio limit " + HardLimit(RLIMIT_RTPRIO) + ")",
                          "write \"* - rtprio " + std::to_string(priority) +
                              "\" to /etc/security/limits.d/90-reed.conf and log in again, "

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cinttypes>
 #include <cstring>
 #include <stdexcept>
+
+#include "firmware/rt/errno_text.h"
 
 namespace reed::telemetry {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::FILE* Open(const std::string& path) {
   if (path.empty()) return nullptr;
   std::FILE* file = std::fopen(path.c_str(), "we");
-  if (file == nullptr) throw std::runtime_error("CAN log " + path + ": " + std::strerror(errno));
+  if (file == nullptr) throw std::runtime_error("CAN log " + path + ": " + rt::ErrnoText());
   return file;
 }
 

@@ -1,8 +1,9 @@
 #include "firmware/telemetry/event_log.h"
 
-#include <cerrno>
 #include <cstring>
 #include <stdexcept>
+
+#include "firmware/rt/errno_text.h"
 
 namespace reed::telemetry {
 namespace {
@@ -11,7 +12,7 @@ lcm_eventlog_t* Open(const std::string& path) {
   if (path.empty()) return nullptr;
   lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "w");
   if (log == nullptr) {
-    throw std::runtime_error("telemetry log " + path + ": " + std::strerror(errno));
+    throw std::runtime_error("telemetry log " + path + ": " + rt::ErrnoText());
   }
   return log;
 }

@@ -4,9 +4,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
+
+#include "firmware/rt/errno_text.h"
 
 namespace reed::telemetry {
 namespace {
@@ -36,10 +37,10 @@ std::string RouteProblem(const std::string& url) {
     return "\"" + group + "\" is no IPv4 multicast group; allowed: udpm://GROUP:PORT?ttl=N";
   }
   const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (probe < 0) return std::strerror(errno);
+  if (probe < 0) return rt::ErrnoText();
   std::string problem;
   if (connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    problem = std::string("no route to ") + group + ": " + std::strerror(errno) + kNoRouteFix;
+    problem = std::string("no route to ") + group + ": " + rt::ErrnoText() + kNoRouteFix;
   }
   close(probe);
   return problem;
@@ -71,7 +72,7 @@ void LcmPublisher::Publish(const char* channel, Bytes message) {
   }
   ++report_.lost;
   if (report_.problem.empty()) {
-    report_.problem = "LCM " + report_.name + ": " + std::strerror(errno) + kNoRouteFix;
+    report_.problem = "LCM " + report_.name + ": " + rt::ErrnoText() + kNoRouteFix;
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "firmware/rt/errno_text.h"
+
 namespace reed::telemetry {
 namespace {
 /// So many records always fit the buffer, so stdio never writes on its own and the kernel sees whole records
@@ -42,7 +44,7 @@ void RecordFile::Flush() {
 }
 
 void RecordFile::Fail() {
-  report_.problem = report_.name + ": " + std::strerror(errno) + "; the file ends there";
+  report_.problem = report_.name + ": " + rt::ErrnoText() + "; the file ends there";
   report_.lost += pending_;
   pending_ = 0;
   __fpurge(file_);  // or closing would append half a record
