@@ -1,24 +1,29 @@
 #include "plant_sim/dynamics/arm_chain.h"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
-#include <string>
+
+#include "plant_sim/dynamics/mass_split.h"
 
 namespace reed::plant {
 
 using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 
 constexpr double kHoldingTorqueOverLimit = 3.0;  // of a brake, over the drive's torque limit
 constexpr double kHoldingTorque = 200.0;         // N·m, where the arm file states no torque limit
+constexpr double kSameLength = 1e-6;             // m, between a section and its Denavit-Hartenberg row
+constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
 
 void Require(bool condition, const ArmDescription& arm, const std::string& what) {
   if (!condition) throw std::invalid_argument("arm " + arm.name + " cannot be simulated: " + what);
 }
 
-void CheckSizes(const ArmDescription& arm) {
+void CheckDrives(const ArmDescription& arm) {
   const auto n = static_cast<std::size_t>(arm.dof());
   Require(n > 0 && n <= static_cast<std::size_t>(kMaxJoints), arm,
           "it needs 1 to " + std::to_string(kMaxJoints) + " joints");
@@ -26,11 +31,22 @@ void CheckSizes(const ArmDescription& arm) {
   Require(arm.rotor_inertia_kgm2.size() == n, arm, "rotor inertia of every joint is needed");
   Require(arm.joint_stiffness_Nmprad.size() == n, arm, "stiffness of every joint is needed");
   for (std::size_t i = 0; i < n; ++i) {
-    Require(arm.rotor_inertia_kgm2[i] > 0.0, arm,
-            "rotor inertia of joint " + std::to_string(i + 1) + " must be positive");
-    Require(arm.joint_stiffness_Nmprad[i] > 0.0, arm,
-            "stiffness of joint " + std::to_string(i + 1) + " must be positive");
+    const std::string joint = " of joint " + std::to_string(i + 1) + " must be positive";
+    Require(arm.rotor_inertia_kgm2[i] > 0.0, arm, "rotor inertia" + joint);
+    Require(arm.joint_stiffness_Nmprad[i] > 0.0, arm, "stiffness" + joint);
   }
+}
+
+void CheckSection(const ArmDescription& arm, std::size_t index, double length) {
+  const std::string name = "section " + std::to_string(index + 1);
+  Require(index < arm.sections.size(), arm,
+          name + " is needed for a flexible member of " + std::to_string(length) + " m");
+  const BeamSection& s = arm.sections[index];
+  Require(
+      std::abs(s.length_m - length) <= kSameLength, arm,
+      name + " has length " + std::to_string(s.length_m) + " m, its member " + std::to_string(length) + " m");
+  Require(s.EA_N > 0.0 && s.EI_Nm2 > 0.0 && s.GJ_Nm2 > 0.0, arm, name + " needs positive EA, EI and GJ");
+  Require(s.rhoA_kgpm >= 0.0, arm, name + " needs a density that is not negative");
 }
 
 double At(const std::vector<double>& values, std::size_t i, double otherwise) {
@@ -52,31 +68,152 @@ Drivetrain BuildDrivetrain(const ArmDescription& arm, const PlantConfig& config,
   return drive;
 }
 
-Placement AlongZ(double d) { return {Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, d)}; }
+Placement Shift(const Vector3d& p) { return {Matrix3d::Identity(), p}; }
+
+/// Base of a member whose x axis points along z (d) or x (a) of the link frame, or against it.
+Placement AlongD(double d) {
+  const double s = d < 0.0 ? -1.0 : 1.0;
+  Matrix3d R;
+  R << 0.0, 1.0, 0.0, 0.0, 0.0, s, s, 0.0, 0.0;
+  return {R, Vector3d(0.0, 0.0, -d)};
+}
+
+Placement AlongA(double a) {
+  const double s = a < 0.0 ? -1.0 : 1.0;
+  return {Vector3d(s, 1.0, s).asDiagonal().toDenseMatrix(), Vector3d::Zero()};
+}
+
+/// Builds the chain link by link; keeps the pose of the last output frame in the frame of the current link.
+class Builder {
+ public:
+  Builder(const ArmDescription& arm, const PlantConfig& config) : arm_(arm), config_(config) {
+    chain_.gravity = arm.gravity_mps2;
+  }
+
+  void AddJoint(std::size_t i) {
+    const DhRow& row = arm_.dh[i];
+    Element joint;
+    joint.mount =
+        output_.Inverse() * Placement{AngleAxisd(row.alpha_rad, Vector3d::UnitX()).toRotationMatrix(),
+                                      Vector3d(row.a_m, 0.0, 0.0)};
+    joint.joint = static_cast<int>(i);
+    chain_.elements.push_back(joint);
+    chain_.drivetrains.push_back(BuildDrivetrain(arm_, config_, i));
+    output_ = Shift({0.0, 0.0, -row.d_m});
+  }
+
+  void AddLink(std::size_t i) {
+    const InertialBody& b = arm_.bodies[i];
+    const RigidBody body{b.mass_kg, b.com_m, b.inertia_com_kgm2};
+    if (!config_.flexible_links) {
+      Attach(chain_.elements.back(), body);
+      return;
+    }
+    std::vector<LinkMember> members = Members(i);
+    const RigidBody rest = SplitMass(body, members);
+
+    std::size_t nearest = members.size();
+    double at = 0.0, distance = 0.0;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const Vector3d from_base = members[m].base.Inverse() * rest.com;
+      const double l = std::clamp(from_base.x(), 0.0, members[m].length);
+      const double d = (from_base - Vector3d(l, 0.0, 0.0)).norm();
+      if (nearest < members.size() && d >= distance) continue;
+      nearest = m;
+      at = l;
+      distance = d;
+    }
+    if (members.empty()) Attach(chain_.elements.back(), rest);
+    for (std::size_t m = 0; m < members.size(); ++m) AddMember(i, members[m], m == nearest ? at : -1.0, rest);
+  }
+
+  ArmChain Finish() {
+    Require(!config_.flexible_links || section_ == arm_.sections.size(), arm_,
+            std::to_string(arm_.sections.size()) + " sections are given, its members are " +
+                std::to_string(section_));
+    chain_.tool = output_.Inverse() * Shift(arm_.tool_offset_m);
+    return std::move(chain_);
+  }
+
+ private:
+  void Attach(Element& element, const RigidBody& body) {
+    element.body = Join(element.body, InParent(output_.Inverse(), body));
+  }
+
+  std::vector<LinkMember> Members(std::size_t i) {
+    std::vector<LinkMember> members;
+    const auto add = [&](const Placement& base, double signed_length) {
+      if (signed_length == 0.0) return;
+      const double length = std::abs(signed_length);
+      CheckSection(arm_, section_, length);
+      const BeamSection& s = arm_.sections[section_++];
+      // A section with one EI for both planes has a polar second moment of area of 2 I: ρ_p = ρA 2I/A.
+      members.push_back({base, length, s.rhoA_kgpm, 2.0 * s.rhoA_kgpm * s.EI_Nm2 / s.EA_N});
+    };
+    sections_of_link_ = section_;
+    add(AlongD(arm_.dh[i].d_m), arm_.dh[i].d_m);
+    if (i + 1 < arm_.dh.size()) add(AlongA(arm_.dh[i + 1].a_m), arm_.dh[i + 1].a_m);
+    return members;
+  }
+
+  /// One member of link i, cut into elements. The rest of the link's mass sits at `at` if that is not
+  /// negative.
+  void AddMember(std::size_t i, const LinkMember& member, double at, const RigidBody& rest) {
+    const BeamSection& s = arm_.sections[sections_of_link_++];
+    const double scale = config_.stiffness_scale;
+    const int count = config_.elements_per_link;
+    const double length = member.length / count;
+    for (int k = 0; k < count; ++k) {
+      const double from = k * length, local = at - from;
+      const bool here =
+          at >= 0.0 && (local <= length * (1.0 + kAtEnd)) && (k == 0 || local > length * kAtEnd);
+      const Placement base = member.base * Shift({from, 0.0, 0.0});
+      if (here && local <= length * kAtEnd) Attach(chain_.elements.back(), rest);
+
+      Member beam;
+      beam.length = length;
+      beam.elasticity = BeamElasticity(length, scale * s.EI_Nm2, scale * s.EA_N, scale * s.GJ_Nm2);
+      beam.inertia = BeamInertia(length, member.density, member.polar);
+      beam.link = static_cast<int>(i);
+      if (here && local > length * kAtEnd && local < length * (1.0 - kAtEnd)) {
+        beam.body_at = local;
+        beam.body = InParent((base * Shift({local, 0.0, 0.0})).Inverse(), rest);
+      }
+      Element element;
+      element.mount = output_.Inverse() * base;
+      element.member = static_cast<int>(chain_.members.size());
+      chain_.members.push_back(beam);
+      chain_.elements.push_back(element);
+      output_ = base * Shift({length, 0.0, 0.0});
+      if (here && local >= length * (1.0 - kAtEnd)) Attach(chain_.elements.back(), rest);
+    }
+  }
+
+  const ArmDescription& arm_;
+  const PlantConfig& config_;
+  ArmChain chain_;
+  Placement output_;                                // last output frame in the current link's frame
+  std::size_t section_ = 0, sections_of_link_ = 0;  // next section to read, next one to build
+};
 
 }  // namespace
 
 ArmChain BuildChain(const ArmDescription& arm, const PlantConfig& config) {
-  CheckSizes(arm);
-  ArmChain chain;
-  chain.gravity = arm.gravity_mps2;
-  Placement from_output;  // what lies, rigid, between the last output frame and the next row's start
+  CheckDrives(arm);
+  Require(config.elements_per_link >= 1, arm, "elements_per_link must be at least 1");
+  Require(config.stiffness_scale > 0.0 && config.joint_stiffness_scale > 0.0, arm,
+          "stiffness scales must be positive");
+  Builder builder(arm, config);
   for (std::size_t i = 0; i < arm.dh.size(); ++i) {
-    const DhRow& row = arm.dh[i];
-    const Placement turn{AngleAxisd(row.alpha_rad, Vector3d::UnitX()).toRotationMatrix(), Vector3d::Zero()};
-    const Placement shift{Eigen::Matrix3d::Identity(), Vector3d(row.a_m, 0.0, 0.0)};
-    const Placement output_to_link = AlongZ(row.d_m);
-
-    Element joint;
-    joint.mount = from_output * turn * shift;
-    joint.body = InParent(output_to_link, RigidBody{arm.bodies[i].mass_kg, arm.bodies[i].com_m,
-                                                    arm.bodies[i].inertia_com_kgm2});
-    chain.elements.push_back(joint);
-    chain.drivetrains.push_back(BuildDrivetrain(arm, config, i));
-    from_output = output_to_link;
+    builder.AddJoint(i);
+    builder.AddLink(i);
   }
-  chain.tool = from_output * Placement{Eigen::Matrix3d::Identity(), arm.tool_offset_m};
-  return chain;
+  return builder.Finish();
+}
+
+void SetStructuralDamping(ArmChain& chain, double beta_s) {
+  for (Drivetrain& drive : chain.drivetrains) drive.spring.d = beta_s * drive.spring.k_q;
+  for (Member& member : chain.members) member.elasticity.beta = beta_s;
 }
 
 }  // namespace reed::plant

@@ -1,20 +1,35 @@
-// The arm as a chain of joints, base to tip, with the rigid bodies that its frames carry. RT: set-up only.
+// The arm as a chain of joints and bending members, base to tip, with the mass that each carries. RT: set-up
+// only.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "config/schema/scenario.h"
+#include "plant_sim/dynamics/beam_elasticity.h"
+#include "plant_sim/dynamics/beam_inertia.h"
 #include "plant_sim/dynamics/friction.h"
 #include "plant_sim/dynamics/joint_spring.h"
 #include "plant_sim/dynamics/rigid_body.h"
 
 namespace reed::plant {
 
-/// One joint: its frame before rotation in the output frame of the element before it, then a turn about its
-/// z.
+/// One element of a straight member.
+struct Member {
+  double length = 0.0;  // m
+  BeamElasticity elasticity;
+  BeamInertia inertia;
+  double body_at = -1.0;  // m, cross-section that carries `body`; -1: none
+  RigidBody body;         // in the section's axes, about its origin
+  int link = 0;           // 0-based, the link that it is part of
+};
+
+/// One element of the chain: a turn about z of its mount, or a member along x of its mount.
 struct Element {
-  Placement mount;
-  RigidBody body;  // fixed to the output frame, in its axes
+  Placement mount;  // in the output frame of the element before it
+  int joint = -1;   // index, or -1
+  int member = -1;  // index, or -1
+  RigidBody body;   // fixed to the output frame (the turned frame, the member's tip section), in its axes
 };
 
 /// What stands between the motor torque and the joint.
@@ -28,13 +43,19 @@ struct Drivetrain {
 struct ArmChain {
   std::vector<Element> elements;
   std::vector<Drivetrain> drivetrains;  // one per joint
-  Placement tool;                       // tool point in the last output frame
-  Eigen::Vector3d gravity;              // m/s², base frame
+  std::vector<Member> members;
+  Placement tool;                                     // tool point in the last output frame
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², base frame
 
   int dof() const { return static_cast<int>(drivetrains.size()); }
+  /// Motor angles, joint angles, elastic coordinates of every member.
+  int num_coordinates() const { return 2 * dof() + kElastic * static_cast<int>(members.size()); }
 };
 
 /// Throws std::invalid_argument, naming what is missing, when the arm cannot be simulated.
 ArmChain BuildChain(const ArmDescription& arm, const PlantConfig& config);
+
+/// Structural damping proportional to stiffness: d = beta k_q in every joint, beta K in every member.
+void SetStructuralDamping(ArmChain& chain, double beta_s);
 
 }  // namespace reed::plant

@@ -1,10 +1,13 @@
 #include "plant_sim/dynamics/arm_plant.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
 #include "plant_sim/dynamics/disturbance.h"
+#include "plant_sim/dynamics/equilibrium.h"
 #include "plant_sim/dynamics/rosenbrock.h"
 
 namespace reed::plant {
@@ -54,9 +57,14 @@ class ArmPlant::Impl {
     sick_coordinate_ = -1;
     equations_.SetPayload(0.0);
     loaded_ = false;
-    x_.head(n) = x_.tail(n) = motor_angle_rad;
+    x_.setZero();
+    x_.head(n) = x_.segment(n, n) = motor_angle_rad;
     x_dot_.setZero();
-    SettleJoints();
+    if (!Settle(equations_, Vector3d::Zero(), x_))
+      throw std::runtime_error("ArmPlant::Reset: no static equilibrium in this pose");
+    // Structural damping: the ratio asked for at the lowest frequency, proportional to stiffness beyond it.
+    const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
+    SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
     UpdateTruth();
   }
 
@@ -93,26 +101,6 @@ class ArmPlant::Impl {
   }
 
  private:
-  /// Static equilibrium with the motors held: Newton on the joint angles, the wall included.
-  void SettleJoints() {
-    const int n = chain_.dof();
-    Load hold;
-    hold.motor_torque = VectorXd::Zero(n);
-    hold.hold_motors = true;
-    Implicit newton;
-    newton.y_d = newton.y_k = VectorXd::Zero(equations_.size());
-    VectorXd step = VectorXd::Zero(equations_.size());
-    // The weight of K leaves nothing else to see: (M + c K) k = F gives c k = K⁻¹F.
-    newton.c_k = 1e6;
-    for (int i = 0; i < 50; ++i) {
-      equations_.SetState(x_, x_dot_);
-      equations_.Solve(hold, newton, step);
-      x_.tail(n) += newton.c_k * step.tail(n);
-      if (newton.c_k * step.tail(n).norm() < 1e-15) break;
-    }
-    equations_.SetState(x_, x_dot_);
-  }
-
   void OperateBrakes(bool braked) {
     if (braked && !braked_)
       for (std::size_t j = 0; j < brakes_.size(); ++j) brakes_[j].Close(x_[static_cast<Eigen::Index>(j)]);

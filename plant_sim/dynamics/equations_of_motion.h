@@ -1,13 +1,14 @@
 // Lagrange's equations (19)-(21) of the whole chain, solved in one sweep to the base and one to the tip.
 //
-//   M(x) x'' + h(x, x') + ∂E_p/∂x + D x' = Q + J_toolᵀ F_in                         (21), x = [θ | q]
+//   M(x) x'' + h(x, x') + ∂E_p/∂x + D x' = Q + J_toolᵀ F_in              (21), x = [θ | q | e of every
+//   member]
 //
 // The tree structure of M is used and M is never built: each element passes to its carrier the 6x6 inertia
 // and the wrench that are left once its own coordinates are eliminated, so one solution costs O(elements). A
 // linearly implicit integrator needs more than x'': it asks for the rate k of
 //   (M + c_d D + c_k K) k = F(x, x') + D y_d - K y_k
-// with K = ∂²E_p/∂x² of springs and contact, D = -∂F/∂x' of damping, friction and contact. c_d = c_k = 0
-// gives x'' itself. RT: safe after construction.
+// with K = ∂²E_p/∂x² of springs, beams and contact, D = -∂F/∂x' of damping, friction and contact. c_d = c_k =
+// 0 gives x'' itself. RT: safe after construction.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@
 
 #include "plant_sim/dynamics/arm_chain.h"
 #include "plant_sim/dynamics/brake.h"
+#include "plant_sim/dynamics/elimination.h"
 #include "plant_sim/dynamics/wall.h"
 
 namespace reed::plant {
@@ -37,9 +39,11 @@ struct Implicit {
 
 class EquationsOfMotion {
  public:
+  /// Keeps references: the chain's damping may be changed between two calls of Solve.
   EquationsOfMotion(const ArmChain& chain, const Wall& wall);
 
-  int size() const { return 2 * n_; }
+  int dof() const { return n_; }
+  int size() const { return chain_.num_coordinates(); }
 
   /// Kinematics of this state; everything below refers to it.
   void SetState(const Eigen::VectorXd& x, const Eigen::VectorXd& x_dot);
@@ -62,30 +66,52 @@ class EquationsOfMotion {
   double ElasticEnergy() const;  // E_p2 + E_p3
   double ContactEnergy() const { return wall_.Energy(tool_position_); }
 
+  /// Dense M(x) and ∂(tool point)/∂x, for modes and checks. Set-up only.
+  Eigen::MatrixXd MassMatrix() const;
+  Eigen::MatrixXd ToolJacobian() const;
+  /// ∂²(E_p2 + E_p3)/∂x²: springs and beams. Set-up only.
+  Eigen::MatrixXd StiffnessMatrix() const;
+
+  /// Output frame of every element in the base frame.
+  const Placement& frame(std::size_t element) const { return nodes_[element].world; }
+  /// A section of a member in the base frame, l from its base. Set-up only.
+  Placement SectionFrame(int member, double l) const;
+
  private:
-  struct Node {
-    Placement pose;   // output frame in the carrier's
+  struct Node {       // one per element
+    Placement pose;   // output frame in the carrier's output frame
     Placement world;  // output frame in the base
-    Motion motion;
-    RigidBody body;  // payload included
-    // Elimination of the joint coordinate.
-    Inertia6 inertia;
-    Wrench force;
+    Motion motion;    // of the output frame
+    RigidBody body;   // payload included
+    Inertia6 body_inertia;
+  };
+  struct JointWork {  // eliminated: the motor angle, then the joint angle
     Eigen::Vector3d U_linear, U_angular;
     double pivot = 1.0, rest = 0.0;
-    // Elimination of the motor coordinate.
     double motor_pivot = 1.0, motor_rest = 0.0, coupling = 0.0;
   };
+  struct MemberWork {  // eliminated: the elastic coordinates
+    BeamInertia inertia;
+    Section tip, body_section;
+    Motion base;
+    ElasticVec e, e_dot;
+    ElementBlock block;
+  };
 
-  void EliminateMotor(std::size_t i, const Load& load, const Implicit& implicit, double& torque,
-                      double& inertia);
+  void MoveJoint(const Element& element, const Motion& carrier, Node& node);
+  void MoveMember(const Element& element, const Motion& carrier, Node& node);
+  void EliminateMotor(int joint, const Load& load, const Implicit& implicit, double& torque, double& inertia);
+  void EliminateJoint(int joint, const Load& load, const Implicit& implicit, Inertia6& I, Wrench& p);
+  void EliminateMember(int member, const Implicit& implicit, const Placement& mount, Inertia6& I, Wrench& p);
+  Eigen::Index ElasticIndex(int member) const { return 2 * n_ + kElastic * member; }
 
   const ArmChain& chain_;
   const Wall& wall_;
   int n_;
   Eigen::VectorXd x_, x_dot_;
   std::vector<Node> nodes_;
-  Placement tool_world_;
+  std::vector<JointWork> joints_;
+  std::vector<MemberWork> members_;
   Eigen::Vector3d tool_position_, tool_velocity_, tool_rate_ = Eigen::Vector3d::Zero();
   Wall::Contact contact_;
 };

@@ -1,11 +1,15 @@
 #include "plant_sim/dynamics/rigid_body.h"
 
+#include <cmath>
+
 namespace reed::plant {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
+
+constexpr double kRoundOff = 1e-12;  // of a difference of masses, relative
 
 /// Inertia about the origin from that about the centre of mass (sign +1), or back (-1).
 Matrix3d Steiner(const Matrix3d& inertia, double mass, const Vector3d& com, double sign) {
@@ -15,8 +19,8 @@ Matrix3d Steiner(const Matrix3d& inertia, double mass, const Vector3d& com, doub
 RigidBody Sum(const RigidBody& a, const RigidBody& b, double sign) {
   RigidBody sum;
   sum.mass = a.mass + sign * b.mass;
-  const Vector3d first_moment = a.mass * a.com + sign * b.mass * b.com;
-  if (sum.mass > 0.0) sum.com = first_moment / sum.mass;
+  if (std::abs(sum.mass) < kRoundOff * (a.mass + b.mass)) sum.mass = 0.0;
+  if (sum.mass != 0.0) sum.com = (a.mass * a.com + sign * b.mass * b.com) / sum.mass;
   const Matrix3d about_origin =
       Steiner(a.inertia, a.mass, a.com, 1.0) + sign * Steiner(b.inertia, b.mass, b.com, 1.0);
   sum.inertia = Steiner(about_origin, sum.mass, sum.com, -1.0);
@@ -27,6 +31,8 @@ RigidBody Sum(const RigidBody& a, const RigidBody& b, double sign) {
 
 RigidBody Join(const RigidBody& a, const RigidBody& b) { return Sum(a, b, 1.0); }
 RigidBody Without(const RigidBody& whole, const RigidBody& part) { return Sum(whole, part, -1.0); }
+
+Placement Placement::Inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 
 RigidBody InParent(const Placement& placement, const RigidBody& body) {
   return {body.mass, placement * body.com, placement.R * body.inertia * placement.R.transpose()};

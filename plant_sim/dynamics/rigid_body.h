@@ -92,6 +92,7 @@ struct Placement {
 
   Placement operator*(const Placement& child) const { return {R * child.R, p + R * child.p}; }
   Eigen::Vector3d operator*(const Eigen::Vector3d& x) const { return R * x + p; }
+  Placement Inverse() const;
 };
 
 /// The same body, written in the axes and about the origin of the parent.

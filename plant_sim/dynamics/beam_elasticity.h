@@ -1,0 +1,22 @@
+// Strain energy of one straight element (7)-(11), (15), with what the paper leaves out of its plane:
+//   E_p2 = 1/2 ∫ EI (v''² + w''²) dl + 1/2 EA u(L)²/L + 1/2 GJ φ(L)²/L        printed as E_p3 in the text of
+//   (18)
+// Bending v, w with dv_axial = -n v' (7) and I = ∫ n² dA (11); axial strain and twist constant along the
+// element. Structural damping: the same form in the rates times β. RT: safe after construction.
+#pragma once
+
+#include "plant_sim/dynamics/section.h"
+
+namespace reed::plant {
+
+struct BeamElasticity {
+  ElasticMat K = ElasticMat::Zero();  // ∂²E_p2/∂e²: EI ∫N''N''ᵀ dl in both planes, EA/L, GJ/L
+  double beta = 0.0;                  // s
+
+  BeamElasticity() = default;
+  BeamElasticity(double length, double EI, double EA, double GJ);
+
+  double Energy(const ElasticVec& e) const { return 0.5 * e.dot(K * e); }
+};
+
+}  // namespace reed::plant

@@ -1,0 +1,128 @@
+#include "plant_sim/dynamics/beam_inertia.h"
+
+namespace reed::plant {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+BeamInertia::BeamInertia(double length, double density, double polar)
+    : length_(length),
+      m_(density * length),
+      polar_(polar),
+      l_(density * length * length / 2.0),
+      ll_(density * length * length * length / 3.0),
+      U_(density * length / 2.0),
+      lU_(density * length * length / 3.0),
+      UU_(density * length / 3.0) {
+  const BeamIntegrals integrals = IntegrateShapes(length);
+  N_ = density * integrals.N;
+  lN_ = density * integrals.lN;
+  UN_ = lN_ / length;
+  NN_ = density * integrals.NN;
+  S_ = density * integrals.S;
+  lS_ = density * integrals.lS;
+
+  // What does not change with e: to second order in E_k, M_ee is constant.
+  M_.setZero();
+  M_.block<kBending, kBending>(kA, kA) = NN_;
+  M_.block<kBending, kBending>(kB, kB) = NN_;
+  M_(kU, kU) = UU_;
+  M_(kTwist, kTwist) = polar_ * length / 3.0;
+  M_(kTwist, kAngular) = M_(kAngular, kTwist) = polar_ * length / 2.0;
+  M_.block<3, 3>(kLinear, kLinear) = m_ * Matrix3d::Identity();
+  M_.block<kBending, 1>(kA, kLinear + 1) = N_;
+  M_.block<kBending, 1>(kB, kLinear + 2) = N_;
+  M_(kU, kLinear) = U_;
+  Deform(ElasticVec::Zero(), ElasticVec::Zero());
+}
+
+void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
+  e_ = e;
+  e_dot_ = e_dot;
+  const BendingVec a = e.segment<kBending>(kA), b = e.segment<kBending>(kB);
+  const BendingVec a_dot = e_dot.segment<kBending>(kA), b_dot = e_dot.segment<kBending>(kB);
+  const double u = e[kU], u_dot = e_dot[kU];
+
+  NNa_ = NN_ * a;
+  NNb_ = NN_ * b;
+  NNa_dot_ = NN_ * a_dot;
+  NNb_dot_ = NN_ * b_dot;
+  Sa_ = S_ * a;
+  Sb_ = S_ * b;
+  lSa_ = lS_ * a;
+  lSb_ = lS_ * b;
+  lNu_ = lN_ + u * UN_;
+
+  // h, its rate, and its second derivative without e''.
+  h_ = {l_ + U_ * u - 0.5 * a.dot(Sa_) - 0.5 * b.dot(Sb_), N_.dot(a), N_.dot(b)};
+  h_dot_ = {U_ * u_dot - Sa_.dot(a_dot) - Sb_.dot(b_dot), N_.dot(a_dot), N_.dot(b_dot)};
+  h_bias_ = {-a_dot.dot(S_ * a_dot) - b_dot.dot(S_ * b_dot), 0.0, 0.0};
+
+  // Second moments ∫ρ{x², y², z², xy, xz, yz} and their rates.
+  const double xx = ll_ + (2.0 * lU_ + UU_ * u) * u - a.dot(lSa_) - b.dot(lSb_);
+  const double yy = a.dot(NNa_), zz = b.dot(NNb_), yz = a.dot(NNb_);
+  const double xy = lNu_.dot(a), xz = lNu_.dot(b);
+  const double xx_dot = 2.0 * ((lU_ + UU_ * u) * u_dot - lSa_.dot(a_dot) - lSb_.dot(b_dot));
+  const double yy_dot = 2.0 * NNa_.dot(a_dot), zz_dot = 2.0 * NNb_.dot(b_dot);
+  const double yz_dot = NNb_.dot(a_dot) + NNa_.dot(b_dot);
+  const double xy_dot = lNu_.dot(a_dot) + u_dot * UN_.dot(a), xz_dot = lNu_.dot(b_dot) + u_dot * UN_.dot(b);
+  I_ << yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy;
+  I_dot_ << yy_dot + zz_dot, -xy_dot, -xz_dot, -xy_dot, xx_dot + zz_dot, -yz_dot, -xz_dot, -yz_dot,
+      xx_dot + yy_dot;
+
+  // ∂h/∂e and G beside the constant part of the mass matrix.
+  M_.block<kBending, 1>(kA, kLinear) = -Sa_;
+  M_.block<kBending, 1>(kB, kLinear) = -Sb_;
+  M_.block<kBending, 1>(kA, kAngular) = -NNb_;
+  M_.block<kBending, 1>(kA, kAngular + 2) = lNu_;
+  M_.block<kBending, 1>(kB, kAngular) = NNa_;
+  M_.block<kBending, 1>(kB, kAngular + 1) = -lNu_;
+  M_(kU, kAngular + 1) = UN_.dot(b);
+  M_(kU, kAngular + 2) = -UN_.dot(a);
+  M_.block<3, 3>(kLinear, kAngular) = -Cross(h_);
+  M_.block<3, 3>(kAngular, kLinear) = Cross(h_);
+  M_.block<3, 3>(kAngular, kAngular) = I_;
+  M_(kAngular, kAngular) += polar_ * length_;
+  M_.block<6, kElastic>(kLinear, 0) = M_.block<kElastic, 6>(0, kLinear).transpose();
+}
+
+BlockVec BeamInertia::Bias(const Motion& base) const {
+  const Vector3d& w = base.omega;
+  const BendingVec a = e_.segment<kBending>(kA), b = e_.segment<kBending>(kB);
+  const double u = e_[kU], u_dot = e_dot_[kU];
+  const double wxx = w.x() * w.x(), wyy = w.y() * w.y(), wzz = w.z() * w.z();
+
+  BlockVec p = M_.middleCols<6>(kLinear) *
+               (Eigen::Matrix<double, 6, 1>() << base.bias_linear, base.bias_angular).finished();
+
+  // Elastic rows: centrifugal -1/2 ω ∂𝕀/∂e ω and Coriolis -2 ω ∂(Ge')/∂e.
+  p.segment<kBending>(kA) += (wyy + wzz) * lSa_ - (wxx + wzz) * NNa_ + w.x() * w.y() * lNu_ +
+                             w.y() * w.z() * NNb_ - 2.0 * (w.x() * NNb_dot_ - w.z() * u_dot * UN_);
+  p.segment<kBending>(kB) += (wyy + wzz) * lSb_ - (wxx + wyy) * NNb_ + w.x() * w.z() * lNu_ +
+                             w.y() * w.z() * NNa_ + 2.0 * (w.x() * NNa_dot_ - w.y() * u_dot * UN_);
+  p[kU] +=
+      -(wyy + wzz) * (lU_ + UU_ * u) + w.x() * w.y() * UN_.dot(a) + w.x() * w.z() * UN_.dot(b) +
+      2.0 * (w.y() * UN_.dot(e_dot_.segment<kBending>(kB)) - w.z() * UN_.dot(e_dot_.segment<kBending>(kA)));
+
+  // Base rows.
+  const double spin = polar_ * length_ * (w.x() + 0.5 * e_dot_[kTwist]);
+  const Eigen::Matrix<double, kElastic, 3> G = M_.block<kElastic, 3>(0, kAngular);
+  const Vector3d Ge_dot = G.topRows<kElastic - 1>().transpose() * e_dot_.head<kElastic - 1>();
+  p.segment<3>(kLinear) += w.cross(w.cross(h_)) + 2.0 * w.cross(h_dot_) + h_bias_;
+  p.segment<3>(kAngular) += w.cross(I_ * w + Ge_dot + Vector3d(spin, 0.0, 0.0)) + I_dot_ * w;
+  return p;
+}
+
+double BeamInertia::KineticEnergy(const Motion& base) const {
+  BlockVec rate;
+  rate << e_dot_, base.velocity, base.omega;
+  return 0.5 * rate.dot(M_ * rate);
+}
+
+RigidBody BeamInertia::AsRigidBody() const {
+  const double transverse = ll_ - m_ * length_ * length_ / 4.0;
+  return {m_, Vector3d(0.5 * length_, 0.0, 0.0),
+          Vector3d(polar_ * length_, transverse, transverse).asDiagonal()};
+}
+
+}  // namespace reed::plant

@@ -1,0 +1,22 @@
+// How a link's rigid body becomes mass along its members plus a rigid rest. RT: set-up only.
+#pragma once
+
+#include <vector>
+
+#include "plant_sim/dynamics/rigid_body.h"
+
+namespace reed::plant {
+
+/// One straight member of a link before it is cut into elements.
+struct LinkMember {
+  Placement base;        // x along the member, in the link frame
+  double length = 0.0;   // m
+  double density = 0.0;  // kg/m, of the section; after the split: what it keeps
+  double polar = 0.0;    // kg·m, mass moment of inertia about the axis per length
+};
+
+/// Scales the members' densities down, if need be, until the rest is a body that can exist, and returns the
+/// rest: members + rest = body exactly (mass, centre of mass, inertia). Everything in the link frame.
+RigidBody SplitMass(const RigidBody& body, std::vector<LinkMember>& members);
+
+}  // namespace reed::plant
