@@ -93,6 +93,7 @@ struct ForceConfig {
   double ramp_s = 0.3;
   double end_s = 1e9;                // ... and back to 0 from here
   double contact_threshold_N = 1.0;  // latches force mode
+  double approach_speed_mps = 0.01;  // normal speed while the wall is sought
 };
 
 /// [control] the law and its gains. Vectors have one entry per joint, or one entry for all.

@@ -104,6 +104,8 @@ void Fields(V& v, ForceConfig& c) {
   v.Number("end_s", c.end_s, {"s", 0, 1e9}, "and down from here");
   v.Number("contact_threshold_N", c.contact_threshold_N, {"N", 0.05, 100},
            "a larger normal force latches force mode");
+  v.Number("approach_speed_mps", c.approach_speed_mps, {"m/s", 1e-4, 0.2},
+           "normal speed while the wall is sought");
 }
 
 template <typename V>

@@ -1,0 +1,136 @@
+// The arm as seen through frames: SYNC out, states and wrench in, command out. Every frame that passes is
+// shown to the tap, so that the CAN log is what the controller saw. RT: safe.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "bus/messages.h"
+#include "bus/transport.h"
+#include "firmware/arm_bus/measurement.h"
+#include "firmware/rt/clock.h"
+#include "firmware/telemetry/snapshot.h"
+#include "reed_layout.h"
+
+namespace reed {
+
+template <int N>
+class ArmBus {
+ public:
+  explicit ArmBus(bus::Transport& transport) noexcept : transport_(transport) {
+    measurement_.age.fill(Measurement<N>::kNever);
+  }
+
+  /// Starts a cycle: the joints sample on this frame. Everything known so far is one cycle older.
+  void SendSync(std::uint32_t cycle, telemetry::Snapshot& tap) noexcept {
+    cycle_ = cycle;
+    answered_ = 0;
+    for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
+    measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
+    Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), tap);
+  }
+
+  /// Takes frames until every joint has answered this cycle's SYNC or the deadline passes. True if all
+  /// answered.
+  bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
+    do {
+      const int missing = N - std::popcount(answered_) + (wrench_expected_ && !wrench_answered() ? 1 : 0);
+      const int count = transport_.Receive(received_, std::max(missing, 1), deadline_ns);
+      for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], tap);
+      if (count == 0) break;  // the deadline
+    } while (std::popcount(answered_) < N);
+    wrench_expected_ = wrench_answered();
+    return std::popcount(answered_) == N;
+  }
+
+  void SendCommand(bus::DriveRequest request, const Eigen::Matrix<double, N, 1>& tau,
+                   telemetry::Snapshot& tap) noexcept {
+    bus::CommandMessage message{cycle_, request, {}};
+    for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = tau[i];
+    Send(encoder_.Command(message), tap);
+  }
+
+  const Measurement<N>& measurement() const noexcept { return measurement_; }
+  const bus::DecodeCounters& decode_counters() const noexcept { return decoder_.counters(); }
+  const bus::TransportCounters& transport_counters() const noexcept { return transport_.counters(); }
+  bool alive() const noexcept { return transport_.alive(); }
+  std::int64_t late_frames() const noexcept { return late_; }
+
+ private:
+  bool wrench_answered() const noexcept { return measurement_.wrench_age == 0; }
+
+  void Send(const bus::Frame& frame, telemetry::Snapshot& tap) noexcept {
+    transport_.Send(std::span(&frame, 1));
+    tap.AddFrame(frame, telemetry::Direction::kSent, Offset(tap));
+  }
+
+  void Take(const bus::Frame& frame, telemetry::Snapshot& tap) noexcept {
+    tap.AddFrame(frame, telemetry::Direction::kReceived, Offset(tap));
+    const bus::Decoded decoded = decoder_.Decode(frame);
+    switch (decoded.kind) {
+      case bus::MessageKind::kJointState:
+        TakeJoint(decoded);
+        break;
+      case bus::MessageKind::kWrench:
+        TakeWrench(decoded);
+        break;
+      case bus::MessageKind::kSync:
+      case bus::MessageKind::kCommand:
+        measurement_.foreign_controller = true;
+        break;
+      case bus::MessageKind::kUnknown:
+        break;
+    }
+  }
+
+  void TakeJoint(const bus::Decoded& decoded) noexcept {
+    if (decoded.joint >= N) return;
+    const std::size_t i = static_cast<std::size_t>(decoded.joint);
+    if (decoded.reject != bus::Reject::kNone) {
+      answered_ |= 1u << i;  // it came, but says nothing that may be used: the value stays and ages
+      return;
+    }
+    const bus::JointStateMessage& state = decoded.joint_state;
+    const int late =
+        static_cast<int>((cycle_ - state.cycle_low4) & 0xFu);  // cycles since the SYNC it answers
+    if (late == 0) {
+      answered_ |= 1u << i;
+    } else {
+      ++late_;
+    }
+    if (late >= measurement_.age[i]) return;  // something newer is already known
+    measurement_.theta[decoded.joint] = state.position_rad;
+    measurement_.theta_dot[decoded.joint] = state.velocity_radps;
+    measurement_.torque[decoded.joint] = state.torque_Nm;
+    measurement_.drive[i] = state.state;
+    measurement_.age[i] = late;
+  }
+
+  void TakeWrench(const bus::Decoded& decoded) noexcept {
+    if (decoded.reject != bus::Reject::kNone) return;
+    const bus::WrenchMessage& wrench = decoded.wrench;
+    const std::int64_t late = static_cast<std::int64_t>(cycle_) - static_cast<std::int64_t>(wrench.cycle);
+    if (late > 0) ++late_;
+    if (late < 0 || late >= measurement_.wrench_age) return;
+    measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
+    measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
+    measurement_.wrench_saturated = wrench.saturated;
+    measurement_.wrench_age = static_cast<int>(late);
+  }
+
+  static std::int32_t Offset(const telemetry::Snapshot& tap) noexcept {
+    return static_cast<std::int32_t>(rt::MonotonicClock{}.NowNs() - tap.time_ns);
+  }
+
+  bus::Transport& transport_;
+  bus::Encoder encoder_;
+  bus::Decoder decoder_;
+  Measurement<N> measurement_;
+  std::array<bus::Frame, 32> received_{};
+  std::uint32_t cycle_ = 0;
+  std::uint32_t answered_ = 0;  // bit per joint
+  bool wrench_expected_ = true;
+  std::int64_t late_ = 0;
+};
+
+}  // namespace reed

@@ -1,0 +1,196 @@
+// One period of the arm, readable top to bottom. RT: safe, except the constructor.
+#pragma once
+
+#include <cmath>
+
+#include "firmware/arm_bus/arm_bus.h"
+#include "firmware/cycle_base.h"
+#include "firmware/mode/supervisor.h"
+#include "firmware/protect/limits.h"
+#include "firmware/reference/path_planner.h"
+#include "firmware/strategy/separated.h"
+#include "firmware/telemetry/fill.h"
+
+namespace reed {
+
+template <int N, int P>
+class Cycle final : public CycleBase {
+ public:
+  Cycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted)
+      : arm_(scenario.arm),
+        bus_(transport),
+        strategy_(scenario, arm_, PlanPath(scenario)),
+        limits_(LimitValuesFrom(scenario)),
+        supervisor_(start_wanted),
+        T_(1.0 / scenario.timing.rate_hz),
+        duration_s_(scenario.duration_s) {}
+
+  CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const LoopState& loop,
+                  telemetry::Snapshot& snapshot) noexcept override {
+    const std::int64_t begin = clock_.NowNs();
+    bus_.SendSync(cycle, snapshot);
+    const bool all_answered = bus_.Receive(rx_deadline_ns, snapshot);  // receive
+    const std::int64_t received = clock_.NowNs();
+
+    const Measurement<N>& measured = bus_.measurement();
+    protect::Verdict verdict = Judge(measured, loop);  // estimate what it is worth
+    const mode::Event event = supervisor_.Step(Observe(measured, all_answered, loop, verdict));  // decide
+    if (event != mode::Event::kNone)
+      Note(protect::Reason::kModeChange, -1, static_cast<double>(event), snapshot);
+    if (verdict.trip != protect::Reason::kNone && event == mode::Event::kTrip)
+      Note(verdict.trip, verdict.joint, verdict.value, snapshot);
+
+    const strategy::Decision<N>& decision = Control(measured);                 // control
+    const model::Vec<N> tau = Protect(decision, measured, verdict, snapshot);  // protect: the last word
+    const std::int64_t computed = clock_.NowNs();
+
+    bus_.SendCommand(supervisor_.Request(), tau, snapshot);  // send
+    tau_before_ = tau;
+    const std::int64_t sent = clock_.NowNs();
+
+    Record(measured, decision, tau, verdict, snapshot);  // record
+    snapshot.timing.rx_ns = static_cast<std::int32_t>(received - begin);
+    snapshot.timing.compute_ns = static_cast<std::int32_t>(computed - received);
+    snapshot.timing.tx_ns = static_cast<std::int32_t>(sent - computed);
+    snapshot.timing.cycle_ns = static_cast<std::int32_t>(sent - begin);
+    return Status(all_answered);
+  }
+
+  mode::Mode mode() const noexcept override { return supervisor_.mode(); }
+  protect::Reason trip() const noexcept override { return trip_; }
+
+ private:
+  bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
+  double time_s() const noexcept { return active() ? T_ * supervisor_.cycles_in_mode() : 0.0; }
+
+  reference::JointPath<N> PlanPath(const Scenario& scenario) const {
+    const auto pose_of = [this](const model::Vec<N>& q) {
+      model::Kinematics<N> kin;
+      model::ForwardKinematics<N, P>(arm_, q, model::Vec<N>::Zero(), kin);
+      return kin;
+    };
+    return reference::PathPlanner<N>(pose_of, scenario).Plan();
+  }
+
+  protect::LimitValues<N> LimitValuesFrom(const Scenario& scenario) const {
+    protect::LimitValues<N> v;
+    v.torque = scenario.limits.torque_scale * arm_.torque_limit;
+    v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;
+    v.position_min = arm_.position_min.array() + scenario.limits.position_margin_rad / 2.0;
+    v.position_max = arm_.position_max.array() - scenario.limits.position_margin_rad / 2.0;
+    v.speed = scenario.limits.speed_scale * arm_.speed_limit;
+    v.contact_force = scenario.limits.contact_force_N;
+    v.hold_age = scenario.limits.hold_age_cycles;
+    v.stop_age = scenario.limits.stop_age_cycles;
+    return v;
+  }
+
+  /// Trips are looked for only while torque flows: a still arm behind closed brakes is safe.
+  protect::Verdict Judge(const Measurement<N>& measured, const LoopState& loop) const noexcept {
+    using protect::Reason;
+    if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
+    if (!active()) return {};
+    if (loop.missed_in_row_exceeded)
+      return {Reason::kMissedCycles, -1, static_cast<double>(loop.missed_in_row), 0};
+    for (int i = 0; i < N; ++i) {
+      const bus::DriveState state = measured.drive[static_cast<std::size_t>(i)];
+      if (state != bus::DriveState::kEnabled) return {Reason::kDriveFault, i, static_cast<double>(state), 0};
+    }
+    const double force = measured.wrench_age == 0 ? measured.force.norm() : 0.0;
+    return limits_.Judge(measured.theta, measured.theta_dot, force, measured.OldestAge(),
+                         measured.OldestJoint());
+  }
+
+  mode::Observation Observe(const Measurement<N>& measured, bool all_answered, const LoopState& loop,
+                            const protect::Verdict& verdict) const noexcept {
+    mode::Observation seen;
+    seen.all_fresh = all_answered && measured.OldestAge() == 0;
+    seen.drives_ready = measured.AllDrives(bus::DriveState::kReady);
+    seen.drives_enabled = measured.AllDrives(bus::DriveState::kEnabled);
+    seen.settled = strategy_.settled() || measured.wrench_age == Measurement<N>::kNever;
+    seen.stop = loop.stop_wanted || (active() && time_s() >= duration_s_);
+    seen.trip = verdict.trip != protect::Reason::kNone;
+    return seen;
+  }
+
+  const strategy::Decision<N>& Control(const Measurement<N>& measured) noexcept {
+    if (!active()) strategy_.Settle(measured);
+    return strategy_.Step(measured, time_s(), active(), tau_before_);
+  }
+
+  model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured,
+                        protect::Verdict& verdict, telemetry::Snapshot& snapshot) noexcept {
+    if (supervisor_.Request() != bus::DriveRequest::kEnable) return limits_.Release();
+    const bool sound = verdict.trip == protect::Reason::kNone;
+    const model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict);
+    if (sound &&
+        verdict.trip != protect::Reason::kNone) {  // found by the gate itself: the law's torque is not finite
+      mode::Observation seen;
+      seen.trip = true;
+      supervisor_.Step(seen);
+      Note(verdict.trip, verdict.joint, verdict.value, snapshot);
+    }
+    if (decision.force.speed_limited) verdict.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
+    return tau;
+  }
+
+  void Note(protect::Reason reason, int joint, double value, telemetry::Snapshot& snapshot) noexcept {
+    if (protect::IsTrip(reason)) trip_ = reason;
+    telemetry::Event event;
+    event.mode = static_cast<std::int8_t>(supervisor_.mode());
+    event.force_source = static_cast<std::int8_t>(source_);
+    event.code = static_cast<std::int32_t>(reason);
+    event.joint = joint;
+    event.value = value;
+    snapshot.AddEvent(event);
+  }
+
+  void Record(const Measurement<N>& measured, const strategy::Decision<N>& decision, const model::Vec<N>& tau,
+              const protect::Verdict& verdict, telemetry::Snapshot& snapshot) noexcept {
+    if (decision.source != source_ && active()) {
+      source_ = decision.source;
+      Note(protect::Reason::kForceSourceChange, -1, static_cast<double>(source_), snapshot);
+    }
+    if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f, snapshot);
+    snapshot.dof = N;
+    snapshot.num_parameters = arm_.num_parameters;
+    telemetry::FillMeasured(measured, snapshot.measured);
+    telemetry::FillControl(decision, strategy_, snapshot.control);
+    telemetry::FillAdaptation(strategy_.adaptive(), snapshot.adaptation);
+    telemetry::FillBus(bus_.transport_counters(), bus_.decode_counters(), bus_.late_frames(), snapshot.bus);
+    telemetry::Fill(snapshot.control.tau, tau);
+    snapshot.control.t_s = time_s();
+    snapshot.control.mode = static_cast<std::int8_t>(supervisor_.mode());
+    snapshot.control.limits = verdict.limits;
+  }
+
+  CycleStatus Status(bool all_answered) noexcept {
+    silent_in_row_ = all_answered ? 0 : silent_in_row_ + 1;
+    if (!bus_.alive()) return CycleStatus::kBusLost;
+    if (supervisor_.mode() == mode::Mode::kFault && supervisor_.cycles_in_mode() >= kCyclesAfterFault)
+      return CycleStatus::kFinished;
+    const bool ended = was_active_ && !active() && supervisor_.mode() != mode::Mode::kFault;
+    was_active_ = was_active_ || active();
+    if (ended && supervisor_.cycles_in_mode() >= kCyclesAfterStop) return CycleStatus::kFinished;
+    return CycleStatus::kRunning;
+  }
+
+  static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
+  static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
+
+  rt::MonotonicClock clock_;
+  model::ArmModel<N, P> arm_;
+  ArmBus<N> bus_;
+  strategy::Separated<N, P> strategy_;
+  protect::Limits<N> limits_;
+  mode::Supervisor supervisor_;
+  double T_;
+  double duration_s_;
+  model::Vec<N> tau_before_ = model::Vec<N>::Zero();
+  strategy::ForceSource source_ = strategy::ForceSource::kNone;
+  protect::Reason trip_ = protect::Reason::kNone;
+  bool was_active_ = false;
+  int silent_in_row_ = 0;
+};
+
+}  // namespace reed

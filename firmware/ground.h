@@ -1,0 +1,28 @@
+// What is checked on the ground, before anything moves. RT: set-up only.
+#pragma once
+
+#include <atomic>
+#include <stdexcept>
+
+#include "bus/transport.h"
+#include "config/schema/scenario.h"
+
+namespace reed {
+
+/// Throws ConfigError when one cycle's frames do not fit a 1/5 Mbit/s wire at this rate and the scenario does
+/// not allow it.
+void RefuseWireOverload(const Scenario& scenario);
+
+/// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
+void RefuseSecondController(bus::Transport& transport);
+
+/// The bus is there but not usable: exit status 3.
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// SIGINT and SIGTERM set the flag instead of ending the process.
+const std::atomic<bool>& StopFlag();
+
+}  // namespace reed

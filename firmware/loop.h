@@ -1,0 +1,32 @@
+// The loop: one cycle per period, by the clock or as fast as the plant answers. Nothing of an arm in here.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/cycle_base.h"
+#include "firmware/telemetry/recorder.h"
+
+namespace reed {
+
+struct LoopOptions {
+  double rate_hz = 1000.0;
+  double rx_budget_us = 400.0;
+  int max_missed_in_row = 20;
+};
+
+struct LoopResult {
+  CycleStatus status = CycleStatus::kRunning;
+  std::int64_t cycles = 0, missed = 0, overruns = 0, dropped = 0;
+  double wall_s = 0.0;
+};
+
+/// Clock `wall`: absolute-time grid that keeps its phase, missed points counted. RT: safe.
+LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+                   const std::atomic<bool>& stop) noexcept;
+
+/// Clock `lockstep`: the next cycle starts when this one is done. RT: safe.
+LoopResult RunLockstep(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+                       const std::atomic<bool>& stop) noexcept;
+
+}  // namespace reed

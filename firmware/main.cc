@@ -1,0 +1,144 @@
+// reed_firmware: the controller. On the ground everything is read, checked, allocated; then the loop runs in
+// the real-time scope; then the books are closed.
+//
+//   SYNC -> ArmBus -> Separated strategy -> Limits -> COMMAND
+//             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "bus/open_transport.h"
+#include "bus/wire_time.h"
+#include "firmware/ground.h"
+#include "firmware/loop.h"
+#include "firmware/options.h"
+#include "firmware/rt/heap_guard.h"
+#include "firmware/rt/realtime_scope.h"
+#include "firmware/rt/usage.h"
+
+namespace reed {
+namespace {
+
+/// Telemetry of this many cycles fits the ring: 8 s at 1 kHz if the disk stands still.
+constexpr std::size_t kRingCapacity = 8192;
+
+/// What the real-time scope was granted and what it cost.
+struct Flight {
+  LoopResult result;
+  rt::RealtimeReport report;
+  std::int64_t heap_allocations = 0, page_faults = 0;
+};
+
+Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
+           telemetry::SnapshotRing& ring) {
+  const std::atomic<bool>& stop = StopFlag();
+  const LoopOptions loop{scenario.timing.rate_hz, scenario.timing.rx_budget_us,
+                         scenario.timing.max_missed_in_row};
+  const bool wall = options.clock == ClockKind::kWall;
+  rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0, scenario.timing.cpu, true};
+  rt::RealtimeScope scope(wanted);
+  for (const std::string& line : scope.report().Complaints())
+    std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
+
+  Flight flight;
+  const rt::Usage before = rt::ThreadUsage();
+  const rt::HeapCount heap;
+  // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
+  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(loop, cycle, ring, stop);
+  // ---- real time ends ----
+  flight.heap_allocations = heap.calls();
+  flight.page_faults = (rt::ThreadUsage() - before).page_faults();
+  flight.report = scope.report();
+  return flight;
+}
+
+run_t Describe(const Options& options, const Scenario& scenario, const bus::Transport& transport) {
+  run_t run{};
+  run.scenario = scenario.name;
+  run.arm = scenario.arm.name;
+  run.law = scenario.control.law;
+  run.clock = options.clock == ClockKind::kWall ? "wall" : "lockstep";
+  run.dof = scenario.arm.dof();
+  run.num_parameters = scenario.arm.num_parameters();
+  run.rate_hz = scenario.timing.rate_hz;
+  run.seed = scenario.seed;
+  run.bus_kind = transport.kind();
+  run.bus_interface = transport.interface();
+  run.wire_load_percent = 100.0 * bus::WireLoad(scenario.arm.dof(), scenario.timing.rate_hz);
+  run.cpu = -1;
+  run.scheduler = "other";
+  return run;
+}
+
+void Complete(run_t& run, const Flight& flight) {
+  run.finished = true;
+  run.scheduler = flight.report.scheduler;
+  run.memory_locked = flight.report.memory.granted;
+  run.cpu = flight.report.cpu;
+  run.heap_allocations = flight.heap_allocations;
+  run.page_faults = flight.page_faults;
+  run.telemetry_dropped = flight.result.dropped;
+  run.wall_s = flight.result.wall_s;
+}
+
+int Run(const Options& options) {
+  const Scenario scenario = LoadScenario(options.config, options.load);
+  RefuseWireOverload(scenario);
+  const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
+  const std::unique_ptr<CycleBase> cycle = MakeCycle(scenario, *transport, options.enable);
+  RefuseSecondController(*transport);
+
+  telemetry::SnapshotRing ring(kRingCapacity);
+  const telemetry::TimeBase time = options.clock == ClockKind::kWall
+                                       ? telemetry::TimeBase::Wall()
+                                       : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
+  const std::string can_interface = transport->kind() == "socketcan" ? transport->interface() : "udp";
+  telemetry::Recorder recorder({options.log, options.candump, can_interface, options.lcm, ""}, time, ring,
+                               protect::Text);
+  if (!recorder.publish_problem().empty())
+    std::fprintf(stderr, "reed_firmware: %s\n", recorder.publish_problem().c_str());
+  run_t run = Describe(options, scenario, *transport);
+  recorder.RecordRun(run);
+  recorder.Start();
+
+  const Flight flight = Fly(options, scenario, *cycle, ring);
+
+  recorder.Stop();
+  Complete(run, flight);
+  recorder.RecordRun(run);
+  for (const std::string& line : recorder.Close().Problems())
+    std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
+  if (!options.quiet)
+    std::printf("done: %lld cycles, %lld missed, %lld heap allocations in the loop\n",
+                static_cast<long long>(flight.result.cycles), static_cast<long long>(flight.result.missed),
+                static_cast<long long>(flight.heap_allocations));
+  if (flight.result.status == CycleStatus::kBusLost) {
+    std::fprintf(
+        stderr,
+        "reed_firmware: the bus is lost: nothing heard on %s:%s for 2 s, or the interface went away\n",
+        transport->kind().c_str(), transport->interface().c_str());
+    return 3;
+  }
+  if (cycle->trip() != protect::Reason::kNone) {
+    std::fprintf(stderr, "reed_firmware: the arm stopped: %s\n",
+                 protect::Text(static_cast<int>(cycle->trip())));
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace reed
+
+int main(int argc, char** argv) {
+  try {
+    return reed::Run(reed::ParseOptions(argc, argv));
+  } catch (const reed::BusError& error) {
+    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
+    return 3;
+  } catch (
+      const std::exception& error) {  // everything that can be thrown is thrown before the loop, by bad input
+    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
+    return 2;
+  }
+}

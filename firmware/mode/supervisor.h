@@ -1,0 +1,74 @@
+// Walks the mode table: what happened this cycle, which mode follows, what to ask of the drives. Enabling is
+// explicit: without the operator's wish the arm stays ready with its brakes closed. RT: safe.
+#pragma once
+
+#include "bus/messages.h"
+#include "firmware/mode/mode_table.h"
+
+namespace reed::mode {
+
+/// What the supervisor needs to know of one cycle.
+struct Observation {
+  bool all_fresh = false;       // every joint answered this cycle
+  bool drives_ready = false;    // every drive says ready
+  bool drives_enabled = false;  // every drive says enabled
+  bool settled = false;         // force sensor tared
+  bool stop = false;            // end of the run, or the operator
+  bool trip = false;            // a limit, or a loss
+};
+
+class Supervisor {
+ public:
+  /// start_wanted: the operator's wish to open the brakes.
+  explicit Supervisor(bool start_wanted) noexcept : start_wanted_(start_wanted) {}
+
+  /// @returns the event that was acted on
+  Event Step(const Observation& seen) noexcept {
+    const Event event = Classify(seen);
+    mode_ = Next(mode_, event);
+    ++cycles_in_mode_;
+    if (event != Event::kNone) cycles_in_mode_ = 0;
+    if (mode_ == Mode::kReady) enabling_ = enabling_ || (start_wanted_ && seen.drives_ready && seen.settled);
+    if (mode_ != Mode::kReady) enabling_ = false;
+    if (event == Event::kStop) start_wanted_ = false;
+    return event;
+  }
+
+  Mode mode() const noexcept { return mode_; }
+  bool enabling() const noexcept { return enabling_; }
+  int cycles_in_mode() const noexcept { return cycles_in_mode_; }
+
+  bus::DriveRequest Request() const noexcept {
+    switch (mode_) {
+      case Mode::kReady:
+        return enabling_ ? bus::DriveRequest::kEnable : bus::DriveRequest::kReady;
+      case Mode::kActive:
+        return bus::DriveRequest::kEnable;
+      case Mode::kOff:
+      case Mode::kFault:
+        break;
+    }
+    return bus::DriveRequest::kOff;
+  }
+
+ private:
+  Event Classify(const Observation& seen) noexcept {
+    if (seen.trip && mode_ != Mode::kFault) return Event::kTrip;
+    if (seen.stop && (mode_ == Mode::kActive || mode_ == Mode::kReady)) return Event::kStop;
+    fresh_in_row_ = seen.all_fresh ? fresh_in_row_ + 1 : 0;
+    if (mode_ == Mode::kOff && fresh_in_row_ >= kFreshInRow && !seen.stop) return Event::kEnable;
+    if (mode_ == Mode::kReady && enabling_ && seen.drives_enabled) return Event::kStart;
+    return Event::kNone;
+  }
+
+  static constexpr int kFreshInRow =
+      10;  // cycles in which every joint answered, before the drives are asked for anything
+
+  bool start_wanted_;
+  bool enabling_ = false;
+  int fresh_in_row_ = 0;
+  int cycles_in_mode_ = 0;
+  Mode mode_ = Mode::kOff;
+};
+
+}  // namespace reed::mode

@@ -1,0 +1,42 @@
+#include "firmware/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+namespace reed {
+
+Options ParseOptions(int argc, char** argv) {
+  Options options;
+  CLI::App app{
+      "Real-time controller for robot arms that bend: SYNC out, states in, torques out, telemetry on LCM."};
+  app.add_option("--config", options.config, "scenario: a name in config/scenarios or a TOML file")
+      ->required();
+  app.add_option("--arm", options.load.arm, "arm: a name in config/arms or a file; default: the scenario's");
+  app.add_option("--set", options.load.set, "SECTION.KEY=VALUE, may be repeated")->allow_extra_args(false);
+  app.add_option("--bus", options.bus, "socketcan:IFACE or udp[:GROUP:PORT]")->capture_default_str();
+  app.add_option("--clock", options.clock,
+                 "wall: paced by the clock; lockstep: the next cycle starts when this one is done")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ClockKind>{
+                                              {"wall", ClockKind::kWall}, {"lockstep", ClockKind::kLockstep}})
+                      .description("{wall,lockstep}"))
+      ->default_str("wall");
+  app.add_flag("--enable", options.enable,
+               "open the brakes once every joint is measured; without it the arm is only watched");
+  app.add_option("--log", options.log, "LCM event log that gets every message");
+  app.add_option("--candump", options.candump, "CAN log in candump -L format");
+  app.add_flag("--quiet", options.quiet, "print errors only");
+  app.add_flag("!--no-lcm", options.lcm, "do not publish on the LCM network");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    std::exit(app.exit(help));  // NOLINT(concurrency-mt-unsafe): one thread so far
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "reed_firmware: %s (reed_firmware --help lists the options)\n", error.what());
+    std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
+  }
+  return options;
+}
+
+}  // namespace reed

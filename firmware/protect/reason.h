@@ -1,0 +1,88 @@
+// Why a torque was changed or taken away, with fixed numbers: telemetry keeps its meaning across versions.
+// From 32 on the arm stops (trips); from 96 on a limit is merely acting, bit (code - 96) of control_t.limits.
+// RT: safe.
+#pragma once
+
+#include <cstdint>
+
+namespace reed::protect {
+
+enum class Reason : std::int32_t {
+  kNone = 0,
+  // news
+  kModeChange = 1,
+  kForceSourceChange = 2,
+  kContact = 3,
+  kDriveState = 4,
+  // trips
+  kJointPosition = 32,
+  kJointSpeed = 33,
+  kContactForce = 34,
+  kNotFinite = 35,
+  kStaleMeasurement = 36,
+  kDriveFault = 37,
+  kForeignController = 38,
+  kMissedCycles = 39,
+  kBusLost = 40,
+  kOperator = 41,
+  // limits that act
+  kTorque = 96,
+  kTorqueRate = 97,
+  kNormalSpeed = 98,
+  kHeldMeasurement = 99,
+  kRampDown = 100,
+};
+
+constexpr bool IsTrip(Reason reason) noexcept {
+  return static_cast<int>(reason) >= 32 && static_cast<int>(reason) < 96;
+}
+constexpr std::int32_t LimitBit(Reason reason) noexcept { return 1 << (static_cast<int>(reason) - 96); }
+
+/// One line for people, with the unit of the value that goes with it.
+constexpr const char* Text(int code) noexcept {
+  switch (static_cast<Reason>(code)) {
+    case Reason::kNone:
+      return "none";
+    case Reason::kModeChange:
+      return "mode changed";
+    case Reason::kForceSourceChange:
+      return "force source changed";
+    case Reason::kContact:
+      return "contact: force mode latched, normal force in N";
+    case Reason::kDriveState:
+      return "a drive changed state, value is the state";
+    case Reason::kJointPosition:
+      return "joint position limit, rad";
+    case Reason::kJointSpeed:
+      return "joint speed limit, rad/s";
+    case Reason::kContactForce:
+      return "contact force limit, N";
+    case Reason::kNotFinite:
+      return "the law's torque is not a finite number";
+    case Reason::kStaleMeasurement:
+      return "joint measurement too old, cycles";
+    case Reason::kDriveFault:
+      return "a drive reports a fault or a closed brake while the arm is active";
+    case Reason::kForeignController:
+      return "another controller sends on this bus";
+    case Reason::kMissedCycles:
+      return "too many missed cycles in a row";
+    case Reason::kBusLost:
+      return "the bus is lost";
+    case Reason::kOperator:
+      return "stopped by the operator";
+    case Reason::kTorque:
+      return "torque limit acts, N·m";
+    case Reason::kTorqueRate:
+      return "torque rate limit acts, N·m/s";
+    case Reason::kNormalSpeed:
+      return "normal speed limit acts, m/s";
+    case Reason::kHeldMeasurement:
+      return "old measurement used, cycles";
+    case Reason::kRampDown:
+      return "torque ramps down: measurement too old, cycles";
+  }
+  return "unknown";
+}
+
+}  // namespace reed::protect
