@@ -73,7 +73,7 @@ def run_pair(plan: Plan, on_progress) -> Outcome:
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True))
                 for number in (signal.SIGINT, signal.SIGTERM)}
     plant = start("plant", plan.plant_sim, plan, [])
-    firmware = start("firmware", plan.firmware, plan, ["--candump", str(Path(plan.out) / "bus.candump")])
+    firmware = start("firmware", plan.firmware, plan, ["--enable", "--candump", str(Path(plan.out) / "bus.candump")])
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:
