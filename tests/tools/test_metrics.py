@@ -184,3 +184,32 @@ def test_foreign_logplayer_reads_the_merged_log(tmp_path):
     assert done.returncode == 0, done.stderr
     copied = sorted((channel, data) for _, channel, data in events(tmp_path / "copy.lcmlog"))
     assert copied == sorted((channel, data) for _, channel, data in events(folder / "telemetry.lcmlog"))
+
+
+def test_decoding_at_once_equals_the_generated_classes(tmp_path):
+    from reed_tools.message_layout import decode_all
+    from reed_tools.telemetry_log import TABLES
+    import reed
+
+    folder = recorded(tmp_path, duration_s=0.2)
+    payloads = {}
+    for _, channel, data in events(folder / "telemetry.lcmlog"):
+        payloads.setdefault(channel, []).append(data)
+    for channel, name in TABLES.items():
+        kind = getattr(reed, name)
+        at_once = decode_all(kind, name, payloads[channel])
+        for row, data in enumerate(payloads[channel]):
+            message = kind.decode(data)
+            for field in kind.__slots__:
+                assert np.array_equal(at_once[field][row], getattr(message, field)), (channel, field, row)
+
+
+def test_a_log_of_two_different_arms_is_refused():
+    from reed_tools.message_layout import decode_all
+    from reed_tools.errors import RunError
+    import reed
+
+    one, two = reed.adaptation_t(), reed.adaptation_t()
+    two.num, two.p_hat, two.eta_hat = 1, [1.0], [1.0]
+    with pytest.raises(RunError, match="not of one run"):
+        decode_all(reed.adaptation_t, "adaptation_t", [one.encode(), two.encode()])

@@ -26,6 +26,7 @@ class Plan:
     bus: str
     clock: str
     out: str
+    most_cycles: int  # more than the scenario and its start can need
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -39,7 +40,7 @@ class Outcome:
     firmware_status: int | None = None
     plant_status: int | None = None
     interrupted: bool = False
-    stalled: bool = False
+    stopped_because: str = ""
 
 
 def die_with_parent() -> None:
@@ -99,12 +100,15 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
         if size != last_size:
             last_size, last_growth = size, now
         if now - last_growth > STALL_S:
-            outcome.stalled = True
+            outcome.stopped_because = f"the loop recorded nothing for {STALL_S:g} s"
             return
-        if now - last_report > 0.25:
+        if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
-            if (state := tail.control()) is not None:
-                on_progress(*state)
+            cycle, mode, t_s = state
+            on_progress(mode, t_s)
+            if cycle > plan.most_cycles:
+                outcome.stopped_because = f"the scenario was not done after {cycle} cycles"
+                return
         if plant.poll() is not None and now - last_growth > 3.0:
             return  # the firmware had its time to notice
 

@@ -21,8 +21,8 @@ class LogTail:
         except OSError:
             return 0
 
-    def control(self) -> tuple[int, float] | None:
-        """(mode, t_s) of the newest complete REED_CONTROL in the last bytes of the file."""
+    def control(self) -> tuple[int, int, float] | None:
+        """(cycle, mode, t_s) of the newest complete REED_CONTROL in the last bytes of the file."""
         try:
             with open(self.path, "rb") as file:
                 file.seek(max(0, self.size() - WINDOW))
@@ -36,6 +36,6 @@ class LogTail:
             _, _, _, channel_size, data_size = RECORD.unpack_from(block, at)
             data_at = at + RECORD.size + channel_size
             if block[at + RECORD.size:data_at] == b"REED_CONTROL" and data_at + CONTROL.size <= len(block):
-                _, _, t_s, mode = CONTROL.unpack_from(block, data_at)
-                return mode, t_s
+                _, cycle, t_s, mode = CONTROL.unpack_from(block, data_at)
+                return cycle, mode, t_s
         return None

@@ -10,7 +10,8 @@ from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import ROOT, program
 from reed_tools.telemetry_log import merge
 
-DIED, USAGE = 3, 2
+USAGE = 2
+START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
 def add_arguments(parser) -> None:
@@ -42,10 +43,14 @@ def run(arguments) -> int:
         print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
               f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
-                        bus, arguments.clock, str(folder))
+                        bus, arguments.clock, str(folder), most_cycles(effective))
         with progress.shown(effective["scenario"]["name"], duration_s) as on_progress:
             outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
     return conclude(folder, plan, outcome)
+
+
+def most_cycles(effective: dict) -> int:
+    return int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
 
 
 def make_folder(arguments, name: str) -> Path:
@@ -80,8 +85,8 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome) -> int:
 
 def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
     """One line about the program that ended by itself with a complaint; the firmware's loss of its plant comes second."""
-    if outcome.stalled:
-        return f"the loop recorded nothing for {hil.STALL_S:g} s and was stopped; {last_line(plan, 'firmware')}"
+    if outcome.stopped_because:
+        return f"stopped, because {outcome.stopped_because}; reed_firmware: {last_line(plan, 'firmware')}"
     for name, status in (("plant", outcome.plant_status), ("firmware", outcome.firmware_status)):
         if status:
             how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"

@@ -10,6 +10,7 @@ import lcm
 import numpy as np
 
 from reed_tools.errors import RunError
+from reed_tools.message_layout import decode_all
 from reed_tools.paths import use_message_types
 
 # Fixed order: it is part of the digest's definition.
@@ -76,27 +77,18 @@ def load(path: Path) -> Recording:
     use_message_types()
     import reed
 
-    rows = {channel: [] for channel in TABLES}
-    payloads = {channel: [] for channel in DIGEST_CHANNELS}
+    payloads = {channel: [] for channel in TABLES}
     recording = Recording(singles={channel: [] for channel in SINGLES})
     for _, channel, data in events(path):
-        if channel in TABLES:
-            kind = getattr(reed, TABLES[channel])
-            message = kind.decode(data)
-            rows[channel].append(tuple(getattr(message, name) for name in kind.__slots__))
-            if channel in payloads:
-                payloads[channel].append(data)
+        if channel in payloads:
+            payloads[channel].append(data)
         elif channel in SINGLES:
             recording.singles[channel].append(getattr(reed, SINGLES[channel]).decode(data))
     for channel, name in TABLES.items():
-        recording.tables[channel] = columns(rows[channel], getattr(reed, name).__slots__)
+        recording.tables[channel] = decode_all(getattr(reed, name), name, payloads[channel])
     last = max(recording.tables["REED_MEASURED"]["cycle"], default=-1)
-    for channel, messages in payloads.items():
+    for channel in DIGEST_CHANNELS:
         # The plant may answer a SYNC after the controller's last recorded cycle.
-        kept = [data for data in messages if HEAD.unpack_from(data)[1] <= last]
+        kept = [data for data in payloads[channel] if HEAD.unpack_from(data)[1] <= last]
         recording.channel_digests[channel] = hashlib.sha256(b"".join(kept)).hexdigest()
     return recording
-
-
-def columns(rows: list[tuple], names: list[str]) -> dict[str, np.ndarray]:
-    return {name: np.array(values) for name, values in zip(names, zip(*rows))} if rows else {name: np.array([]) for name in names}

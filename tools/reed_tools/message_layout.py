@@ -1,0 +1,41 @@
+"""Many equal messages decoded at once: the .lcm file as a numpy record type. A minute of telemetry is 300 000 messages;
+the generated classes need half a minute for them, this needs a tenth of a second."""
+
+import re
+
+import numpy as np
+
+from reed_tools.errors import RunError
+from reed_tools.paths import ROOT
+
+SCALARS = {"int8_t": "i1", "boolean": "?", "int32_t": ">i4", "int64_t": ">i8", "float": ">f4", "double": ">f8"}
+FIELD = re.compile(r"^\s*(\w+)\s+(\w+)((?:\[\w+\])?)\s*;", re.MULTILINE)
+FINGERPRINT = np.dtype((np.void, 8))
+
+
+def fields(type_name: str) -> list[tuple[str, str, str | None]]:
+    """(scalar type, field, length or None) in the order of lcmtypes/TYPE.lcm; length is a number or an earlier field."""
+    text = (ROOT / "lcmtypes" / f"{type_name}.lcm").read_text()
+    body = text[text.index("{"):]
+    return [(kind, name, length.strip("[]") or None) for kind, name, length in FIELD.findall(body)]
+
+
+def record_type(type_name: str, sample) -> np.dtype:
+    """The layout that all messages share which have the array lengths of `sample` (a decoded message)."""
+    record = [("fingerprint", FINGERPRINT)]
+    for kind, name, length in fields(type_name):
+        count = () if length is None else (int(length) if length.isdigit() else getattr(sample, length),)
+        record.append((name, SCALARS[kind], count))
+    return np.dtype(record)
+
+
+def decode_all(message_class, type_name: str, payloads: list[bytes]) -> dict[str, np.ndarray]:
+    """One array per field, one row per message, in native byte order."""
+    if not payloads:
+        return {name: np.array([]) for name in message_class.__slots__}
+    layout = record_type(type_name, message_class.decode(payloads[0]))
+    odd = next((data for data in payloads if len(data) != layout.itemsize or data[:8] != payloads[0][:8]), None)
+    if odd is not None:
+        raise RunError(f"{type_name}: a message of {len(odd)} bytes among messages of {layout.itemsize}; the log is not of one run")
+    records = np.frombuffer(b"".join(payloads), dtype=layout)
+    return {name: np.ascontiguousarray(records[name]).astype(layout[name].base.newbyteorder("=")) for name in message_class.__slots__}
