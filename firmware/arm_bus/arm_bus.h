@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <span>
 
 #include "bus/messages.h"
@@ -25,22 +26,25 @@ class ArmBus {
   void SendSync(std::uint32_t cycle, telemetry::Snapshot& tap) noexcept {
     cycle_ = cycle;
     answered_ = 0;
+    wrench_came_ = wrench_heard_ = false;
+    measurement_.foreign_controller = false;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
     Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), tap);
   }
 
-  /// Takes frames until every joint has answered this cycle's SYNC or the deadline passes. True if all
-  /// answered.
+  /// Takes frames until every joint has answered this cycle's SYNC, and the wrench if one came last cycle, or
+  /// the deadline passes. True if all joints answered. A babbling bus cannot hold the loop: what is more than
+  /// kMostFrames waits for the next cycle.
   bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
-    do {
-      const int missing = N - std::popcount(answered_) + (wrench_expected_ && !wrench_answered() ? 1 : 0);
-      const int count = transport_.Receive(received_, std::max(missing, 1), deadline_ns);
-      for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], tap);
+    for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
+      const int count = transport_.Receive(received_, Missing(), deadline_ns);
       if (count == 0) break;  // the deadline
-    } while (std::popcount(answered_) < N);
-    wrench_expected_ = wrench_answered();
-    return std::popcount(answered_) == N;
+      for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], tap);
+      taken += count;
+    }
+    wrench_expected_ = wrench_heard_;
+    return MissingJoints() == 0;
   }
 
   void SendCommand(bus::DriveRequest request, const Eigen::Matrix<double, N, 1>& tau,
@@ -57,7 +61,10 @@ class ArmBus {
   std::int64_t late_frames() const noexcept { return late_; }
 
  private:
-  bool wrench_answered() const noexcept { return measurement_.wrench_age == 0; }
+  static constexpr int kMostFrames = 96;  // of one cycle: several whole answers after a stall
+
+  int MissingJoints() const noexcept { return N - std::popcount(answered_); }
+  int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
 
   void Send(const bus::Frame& frame, telemetry::Snapshot& tap) noexcept {
     transport_.Send(std::span(&frame, 1));
@@ -106,12 +113,20 @@ class ArmBus {
     measurement_.age[i] = late;
   }
 
+  /// A wrench that nobody waited for (the first after a loss) is not used: whether it is seen in this cycle
+  /// or as a late one in the next is a race, and equal runs shall be equal. The next one is waited for.
   void TakeWrench(const bus::Decoded& decoded) noexcept {
-    if (decoded.reject != bus::Reject::kNone) return;
+    const bool waited_for = wrench_expected_;
+    wrench_expected_ = wrench_heard_ = true;
+    if (decoded.reject != bus::Reject::kNone) {
+      wrench_came_ = true;  // it came, but says nothing that may be used
+      return;
+    }
     const bus::WrenchMessage& wrench = decoded.wrench;
     const std::int64_t late = static_cast<std::int64_t>(cycle_) - static_cast<std::int64_t>(wrench.cycle);
     if (late > 0) ++late_;
-    if (late < 0 || late >= measurement_.wrench_age) return;
+    wrench_came_ = wrench_came_ || late == 0;
+    if (!waited_for || late < 0 || late >= measurement_.wrench_age) return;
     measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
     measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
     measurement_.wrench_saturated = wrench.saturated;
@@ -128,8 +143,10 @@ class ArmBus {
   Measurement<N> measurement_;
   std::array<bus::Frame, 32> received_{};
   std::uint32_t cycle_ = 0;
-  std::uint32_t answered_ = 0;  // bit per joint
-  bool wrench_expected_ = true;
+  std::uint32_t answered_ = 0;   // bit per joint
+  bool wrench_came_ = false;     // this cycle's
+  bool wrench_heard_ = false;    // any, in this cycle
+  bool wrench_expected_ = true;  // worth waiting for
   std::int64_t late_ = 0;
 };
 

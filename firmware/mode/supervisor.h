@@ -15,10 +15,14 @@ struct Observation {
   bool settled = false;         // force sensor tared
   bool stop = false;            // end of the run, or the operator
   bool trip = false;            // a limit, or a loss
+  bool reset = false;           // the operator has seen the fault
 };
 
 class Supervisor {
  public:
+  /// Cycles in which every joint answered, before the drives are asked for anything.
+  static constexpr int kFreshInRow = 10;
+
   /// start_wanted: the operator's wish to open the brakes.
   explicit Supervisor(bool start_wanted) noexcept : start_wanted_(start_wanted) {}
 
@@ -30,7 +34,7 @@ class Supervisor {
     if (event != Event::kNone) cycles_in_mode_ = 0;
     if (mode_ == Mode::kReady) enabling_ = enabling_ || (start_wanted_ && seen.drives_ready && seen.settled);
     if (mode_ != Mode::kReady) enabling_ = false;
-    if (event == Event::kStop) start_wanted_ = false;
+    if (event == Event::kStop || event == Event::kTrip) start_wanted_ = false;  // a wish counts once
     return event;
   }
 
@@ -53,16 +57,14 @@ class Supervisor {
 
  private:
   Event Classify(const Observation& seen) noexcept {
-    if (seen.trip && mode_ != Mode::kFault) return Event::kTrip;
+    if (mode_ == Mode::kFault) return seen.reset && !seen.trip ? Event::kReset : Event::kNone;
+    if (seen.trip) return Event::kTrip;
     if (seen.stop && (mode_ == Mode::kActive || mode_ == Mode::kReady)) return Event::kStop;
     fresh_in_row_ = seen.all_fresh ? fresh_in_row_ + 1 : 0;
     if (mode_ == Mode::kOff && fresh_in_row_ >= kFreshInRow && !seen.stop) return Event::kEnable;
     if (mode_ == Mode::kReady && enabling_ && seen.drives_enabled) return Event::kStart;
     return Event::kNone;
   }
-
-  static constexpr int kFreshInRow =
-      10;  // cycles in which every joint answered, before the drives are asked for anything
 
   bool start_wanted_;
   bool enabling_ = false;

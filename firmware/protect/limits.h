@@ -47,28 +47,31 @@ class Limits {
       if (!(std::abs(theta_dot[i]) <= limit_.speed[i])) return {Reason::kJointSpeed, i, theta_dot[i], 0};
     }
     if (!(contact_force <= limit_.contact_force)) return {Reason::kContactForce, -1, contact_force, 0};
-    if (oldest_age > 2 * limit_.stop_age)
+    if (TooOld(oldest_age))
       return {Reason::kStaleMeasurement, oldest_joint, static_cast<double>(oldest_age), 0};
     return {};
   }
+
+  /// Beyond holding and ramping down.
+  bool TooOld(int age) const noexcept { return age > 2 * limit_.stop_age; }
 
   /// The torque that may be sent instead of `tau_law`. Old measurements: held up to hold_age, beyond stop_age
   /// the torque ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
   Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, Verdict& verdict) noexcept {
     for (int i = 0; i < N; ++i) {
       if (std::isfinite(tau_law[i])) continue;
-      verdict.trip = Reason::kNotFinite;
-      verdict.joint = i;
+      verdict = {Reason::kNotFinite, i, tau_law[i], 0};
+      return Release();
     }
-    if (verdict.trip != Reason::kNone) return Release();
 
     Vec<N> tau = tau_law;
+    if (oldest_age <= limit_.stop_age) held_ = sent_;
     if (oldest_age > limit_.stop_age) {
       const double left = 1.0 - static_cast<double>(oldest_age - limit_.stop_age) / limit_.stop_age;
-      tau = sent_ * (left > 0.0 ? left : 0.0);
+      tau = held_ * (left > 0.0 ? left : 0.0);
       verdict.limits |= LimitBit(Reason::kRampDown);
     } else if (oldest_age > limit_.hold_age) {
-      tau = sent_;  // the law would act on the past: stay with the last torque that was based on fresh values
+      tau = held_;  // the law would act on the past: stay with the last torque that was based on fresh values
       verdict.limits |= LimitBit(Reason::kHeldMeasurement);
     }
     const Vec<N> bounded = tau.cwiseMax(-limit_.torque).cwiseMin(limit_.torque);
@@ -82,12 +85,14 @@ class Limits {
   /// Torque zero at once; the brakes hold the arm.
   Vec<N> Release() noexcept {
     sent_.setZero();
+    held_.setZero();
     return sent_;
   }
 
  private:
   LimitValues<N> limit_;
   Vec<N> sent_ = Vec<N>::Zero();
+  Vec<N> held_ = Vec<N>::Zero();  // the last torque before the measurements became too old
 };
 
 }  // namespace reed::protect

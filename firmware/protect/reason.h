@@ -14,6 +14,8 @@ enum class Reason : std::int32_t {
   kForceSourceChange = 2,
   kContact = 3,
   kDriveState = 4,
+  kPhaseBudget = 5,
+  kStall = 6,
   // trips
   kJointPosition = 32,
   kJointSpeed = 33,
@@ -25,6 +27,8 @@ enum class Reason : std::int32_t {
   kMissedCycles = 39,
   kBusLost = 40,
   kOperator = 41,
+  kPhaseBudgetInRow = 42,
+  kStaleWrench = 43,
   // limits that act
   kTorque = 96,
   kTorqueRate = 97,
@@ -51,6 +55,10 @@ constexpr const char* Text(int code) noexcept {
       return "contact: force mode latched, normal force in N";
     case Reason::kDriveState:
       return "a drive changed state, value is the state";
+    case Reason::kPhaseBudget:
+      return "a phase was longer than its budget, value is the phase: 0 receive, 1 compute, 2 transmit";
+    case Reason::kStall:
+      return "cycles were missed, value is how many";
     case Reason::kJointPosition:
       return "joint position limit, rad";
     case Reason::kJointSpeed:
@@ -71,6 +79,10 @@ constexpr const char* Text(int code) noexcept {
       return "the bus is lost";
     case Reason::kOperator:
       return "stopped by the operator";
+    case Reason::kStaleWrench:
+      return "force measurement too old for the law that tracks it, cycles";
+    case Reason::kPhaseBudgetInRow:
+      return "a phase was longer than its budget in too many cycles in a row";
     case Reason::kTorque:
       return "torque limit acts, N·m";
     case Reason::kTorqueRate:
