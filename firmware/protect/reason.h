@@ -27,7 +27,7 @@ enum class Reason : std::int32_t {
   kMissedCycles = 39,
   kBusLost = 40,
   kOperator = 41,
-  kPhaseBudgetInRow = 43,
+  kPhaseBudgetInRow = 44,
   kStaleWrench = 43,
   // limits that act
   kTorque = 96,
