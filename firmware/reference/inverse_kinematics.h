@@ -45,7 +45,9 @@ model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vect
     Eigen::Matrix3d AAt = A * A.transpose();
     AAt.diagonal().array() += kDamping * kDamping;
     const Eigen::Vector3d turn = RotationError(R_goal, kin.R_tip()) - J_w * step;
-    step += A.transpose() * AAt.ldlt().solve(turn);
+    // Once more through the null space: of the first pass 1e-12 of a turn that cannot be made would leak into
+    // the position, divided by the damping.
+    step += null_space * (A.transpose() * AAt.ldlt().solve(turn));
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep_rad) step *= kLongestStep_rad / longest;
     q += step;
