@@ -10,8 +10,7 @@
 // With Δt = T q the aggregate of (5) is  (Tᵀ K T) q = Tᵀ W.  Base axes, SI.  RT: set-up only (allocates).
 #pragma once
 
-#include <Eigen/Dense>
-#include <stdexcept>
+#include <Eigen/Core>
 #include <vector>
 
 #include "firmware/model/member_stiffness.h"
@@ -47,13 +46,8 @@ class FiniteMatrix {
     return id;
   }
 
-  void AddMember(int from, int to, double EA, double EI, double GJ, const Eigen::Vector3d& spread_force) {
-    const Eigen::Vector3d r = nodes_.at(Index(to)).position - nodes_.at(Index(from)).position;
-    const double L = r.norm();
-    if (!(L > 0.0)) throw std::invalid_argument("a member needs two nodes apart");
-    members_.push_back(
-        {from, to, MemberStiffness(r / L, L, EA, EI, GJ), EquivalentNodalLoad(r / L, L, spread_force)});
-  }
+  /// Throws std::invalid_argument when the nodes coincide. `spread_force`: total force, spread evenly.
+  void AddMember(int from, int to, double EA, double EI, double GJ, const Eigen::Vector3d& spread_force);
 
   /// Force and moment on a node, moment about it.
   void AddLoad(int node, const Vec6& wrench) { nodes_.at(Index(node)).load += wrench; }
@@ -91,12 +85,7 @@ class FiniteMatrix {
 
   static std::size_t Index(int id) { return static_cast<std::size_t>(id); }
 
-  int AddNode(const Eigen::Vector3d& position, int master, int coordinates) {
-    if (master != kNone && Index(master) >= nodes_.size()) throw std::invalid_argument("no such master node");
-    nodes_.push_back({position, master, num_coordinates_, coordinates});
-    num_coordinates_ += coordinates;
-    return static_cast<int>(nodes_.size()) - 1;
-  }
+  int AddNode(const Eigen::Vector3d& position, int master, int coordinates);
 
   /// Rows of T that belong to a node.
   Eigen::MatrixXd Map(int node) const;
@@ -107,100 +96,5 @@ class FiniteMatrix {
   std::vector<Beam> members_;
   int num_coordinates_ = 0;
 };
-
-/// Symmetric positive semidefinite A x = b with unknowns of different units: scaled to a unit diagonal, rank
-/// by eigenvalues, least norm (in the scaled unknowns) where the rank is not full.
-struct SemidefiniteSolver {
-  explicit SemidefiniteSolver(const Eigen::MatrixXd& A);
-  Eigen::MatrixXd Solve(const Eigen::MatrixXd& b) const;
-
-  int rank = 0;
-
- private:
-  Eigen::VectorXd scale_;
-  Eigen::LDLT<Eigen::MatrixXd> ldlt_;
-  Eigen::MatrixXd pseudo_inverse_;  // only below full rank
-};
-
-inline SemidefiniteSolver::SemidefiniteSolver(const Eigen::MatrixXd& A) {
-  constexpr double kRankTolerance = 1e-11;  // relative to the largest eigenvalue of the scaled matrix
-  const auto diagonal = A.diagonal().array();
-  scale_ = (diagonal > 0.0).select(diagonal.sqrt().inverse(), 1.0).matrix();
-  const Eigen::MatrixXd scaled = scale_.asDiagonal() * A * scale_.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const auto& values = eigen.eigenvalues();
-  const double smallest = A.rows() == 0 ? 0.0 : kRankTolerance * values.cwiseAbs().maxCoeff();
-  rank = static_cast<int>((values.array() > smallest).count());
-  if (rank == A.rows()) {
-    ldlt_.compute(scaled);
-    return;
-  }
-  const Eigen::VectorXd inverse = (values.array() > smallest).select(values.array().inverse(), 0.0);
-  pseudo_inverse_ = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-inline Eigen::MatrixXd SemidefiniteSolver::Solve(const Eigen::MatrixXd& b) const {
-  const Eigen::MatrixXd scaled = scale_.asDiagonal() * b;
-  if (rank == scale_.size()) return scale_.asDiagonal() * ldlt_.solve(scaled);
-  return scale_.asDiagonal() * (pseudo_inverse_ * scaled);
-}
-
-inline Eigen::MatrixXd FiniteMatrix::Map(int id) const {
-  const Node& node = nodes_.at(Index(id));
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(6, num_coordinates_);
-  if (node.coordinates == 6) T.middleCols<6>(node.first).setIdentity();
-  if (node.master == kNone) return T;
-  T = Map(node.master);
-  const Eigen::Vector3d r = node.position - nodes_[Index(node.master)].position;
-  for (int k = 0; k < num_coordinates_; ++k) {
-    T.col(k).head<3>() += Eigen::Vector3d(T.col(k).tail<3>()).cross(r);  // u_j = u_i + φ_i × r
-  }
-  if (node.coordinates == 1) T.col(node.first).tail<3>() += node.axis;  // (6) Ω^e (Δt_i - Δt_j) = ξ
-  return T;
-}
-
-inline Eigen::MatrixXd FiniteMatrix::Aggregate() const {
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(num_coordinates_, num_coordinates_);
-  for (const Beam& beam : members_) {
-    Eigen::MatrixXd T(12, num_coordinates_);
-    T << Map(beam.from), Map(beam.to);
-    K += T.transpose() * beam.K * T;
-  }
-  for (const Node& node : nodes_) {
-    if (node.coordinates == 1) K(node.first, node.first) += node.k_q;  // (6) Ω^e W = k_q ξ
-  }
-  return 0.5 * (K + K.transpose());
-}
-
-inline Eigen::VectorXd FiniteMatrix::Load() const {
-  Eigen::VectorXd W = Eigen::VectorXd::Zero(num_coordinates_);
-  for (const Beam& beam : members_) {
-    W += Map(beam.from).transpose() * beam.load.head<6>() + Map(beam.to).transpose() * beam.load.tail<6>();
-  }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) W += Map(static_cast<int>(i)).transpose() * nodes_[i].load;
-  return W;
-}
-
-inline FiniteMatrix::Solution FiniteMatrix::Solve() const {
-  const SemidefiniteSolver solver(Aggregate());
-  return {solver.Solve(Load()), solver.rank, num_coordinates_};  // (5)
-}
-
-inline FiniteMatrix::Stiffness FiniteMatrix::CartesianStiffness(int node) const {
-  // All q with T q = Δt are q = T⁺ Δt + Z y; the y of least energy gives the Schur complement below.
-  const Eigen::MatrixXd T = Map(node), K = Aggregate();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(T, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const auto rank_T = svd.rank();
-  const Eigen::MatrixXd Z = svd.matrixV().rightCols(num_coordinates_ - rank_T);
-  const Eigen::MatrixXd T_plus = svd.solve(Eigen::MatrixXd::Identity(6, 6));
-  const Eigen::MatrixXd KZ = K * Z;
-  Stiffness out;
-  Eigen::MatrixXd schur = K * T_plus;
-  if (Z.cols() > 0) schur -= KZ * SemidefiniteSolver(Z.transpose() * KZ).Solve(KZ.transpose() * T_plus);
-  out.K = T_plus.transpose() * schur;
-  out.K = (0.5 * (out.K + out.K.transpose())).eval();
-  out.rank = SemidefiniteSolver(out.K).rank;
-  return out;
-}
 
 }  // namespace reed::model
