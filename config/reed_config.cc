@@ -18,8 +18,11 @@ int main(int argc, char** argv) {
   app.add_flag("--keys", keys, "print the table of all keys (config/README.md)");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::fprintf(stderr, "%s (reed_config --help lists the options)\n", error.what());
+    return 2;
   }
   if (keys) {
     std::cout << reed::KeyReference();

@@ -67,9 +67,9 @@ struct ArmDescription {
   std::vector<double> joint_hardening_Nmprad3;  // cubic term k_3 of the spring: torque = k_q xi + k_3 xi^3
   std::vector<double> coulomb_Nm;
   std::vector<double> torque_limit_Nm;
-  std::vector<double> position_min_rad;
-  std::vector<double> position_max_rad;
-  std::vector<double> speed_limit_radps;
+  std::vector<double> position_min_rad;   // never empty after reading: -2.9 rad where absent
+  std::vector<double> position_max_rad;   // 2.9 rad where absent
+  std::vector<double> speed_limit_radps;  // 3 rad/s where absent
   // Members in order from base to tip: for each link the non-zero d (along z), then the non-zero a (along x)
   // that follows it.
   std::vector<BeamSection> sections;

@@ -16,6 +16,9 @@ constexpr Bound kMass{"kg", 0.0, 500.0};
 constexpr Bound kMoment{"kg·m²", -500.0, 500.0};
 constexpr Bound kGravity{"m/s²", -30.0, 30.0};
 
+constexpr double kDefaultRange_rad = 2.9;
+constexpr double kDefaultSpeed_radps = 3.0;
+
 using Numbers = std::vector<double>;
 
 /// A list of equally long rows of numbers.
@@ -43,9 +46,11 @@ std::vector<Numbers> Rows(Reader& in, const char* key, std::size_t width) {
   return rows;
 }
 
-void CheckWithin(Reader& in, const std::string& key, double value, const Bound& bound, const char* hint) {
+void CheckWithin(Reader& in, const toml::node* where, const std::string& key, double value,
+                 const Bound& bound, const char* hint) {
   if (value < bound.lo || value > bound.hi)
-    in.Fail(key, ToText(value) + " is out of range; allowed: " + ToText(bound) + " (" + hint + ")");
+    in.document().Fail(where, in.KeyName(key),
+                       ToText(value) + " is out of range; allowed: " + ToText(bound) + " (" + hint + ")");
 }
 
 std::vector<DhRow> ReadDh(Reader& in) {
@@ -56,9 +61,10 @@ std::vector<DhRow> ReadDh(Reader& in) {
   std::vector<DhRow> dh;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string name = "dh[" + std::to_string(i) + "]";
-    CheckWithin(in, name, rows[i][0], kAngle, "alpha is in radians");
-    CheckWithin(in, name, rows[i][1], kLength, "a is in metres");
-    CheckWithin(in, name, rows[i][2], kLength, "d is in metres");
+    const toml::node* where = in.Get("dh")->as_array()->get(i);
+    CheckWithin(in, where, name, rows[i][0], kAngle, "alpha is in radians");
+    CheckWithin(in, where, name, rows[i][1], kLength, "a is in metres");
+    CheckWithin(in, where, name, rows[i][2], kLength, "d is in metres");
     dh.push_back({rows[i][0], rows[i][1], rows[i][2]});
   }
   return dh;
@@ -254,6 +260,10 @@ void ReadJoints(Reader& in, ArmDescription& arm) {
   PerJoint(in, "speed_limit", arm.speed_limit_radps, arm, {"rad/s", 0.01, 100.0});
   if (arm.position_min_rad.size() != arm.position_max_rad.size())
     in.Fail("position_min", "comes with position_max, for the same joints");
+  // What guards a run has a careful default; what the drives are made of has none.
+  if (arm.position_min_rad.empty()) arm.position_min_rad.assign(arm.dh.size(), -kDefaultRange_rad);
+  if (arm.position_max_rad.empty()) arm.position_max_rad.assign(arm.dh.size(), kDefaultRange_rad);
+  if (arm.speed_limit_radps.empty()) arm.speed_limit_radps.assign(arm.dh.size(), kDefaultSpeed_radps);
   for (std::size_t i = 0; i < arm.position_min_rad.size(); ++i)
     if (arm.position_min_rad[i] >= arm.position_max_rad[i])
       in.Fail("position_min", "joint " + std::to_string(i + 1) + ": not below position_max");

@@ -16,4 +16,7 @@ std::string ToText(const Bound& bound);
 /// Shortest decimal that reads back as the same double.
 std::string ToText(double value);
 
+/// Six significant digits: for computed values, which nobody typed.
+std::string ToShortText(double value);
+
 }  // namespace reed

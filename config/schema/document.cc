@@ -1,5 +1,6 @@
 #include "config/schema/document.h"
 
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -132,6 +133,13 @@ void Document::Override(const std::string& assignment) {
     parsed.insert("value", value_text);  // a bare word is a string
   }
 
+  const auto index_in = [&](const toml::array& array, const std::string& part) {
+    std::size_t index = array.size();
+    const auto end = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (end.ec != std::errc{} || end.ptr != part.data() + part.size() || index >= array.size())
+      refuse("no entry '" + part + "'; allowed: 0 ... " + std::to_string(array.size() - 1));
+    return index;
+  };
   const std::vector<std::string> parts = SplitPath(dotted);
   toml::node* node = &root_;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -143,10 +151,7 @@ void Document::Override(const std::string& assignment) {
         next = table->get(parts[i]);
       }
     } else if (toml::array* array = node->as_array()) {
-      const std::size_t index = std::strtoul(parts[i].c_str(), nullptr, 10);
-      if (index >= array->size())
-        refuse("no entry " + parts[i] + ", there are " + std::to_string(array->size()));
-      next = array->get(index);
+      next = array->get(index_in(*array, parts[i]));
     }
     if (next == nullptr || (!next->is_table() && !next->is_array()))
       refuse("'" + parts[i] + "' is not a section");
@@ -156,9 +161,7 @@ void Document::Override(const std::string& assignment) {
   if (toml::table* table = node->as_table()) {
     value->visit([&](auto& concrete) { table->insert_or_assign(parts.back(), concrete); });
   } else if (toml::array* array = node->as_array()) {
-    const std::size_t index = std::strtoul(parts.back().c_str(), nullptr, 10);
-    if (index >= array->size())
-      refuse("no entry " + parts.back() + ", there are " + std::to_string(array->size()));
+    const std::size_t index = index_in(*array, parts.back());
     value->visit([&](auto& concrete) {
       array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), concrete);
     });
@@ -174,10 +177,11 @@ void Document::Fail(const toml::node* where, const std::string& key, const std::
     else if (c != ']')
       plain += c;
   }
+  const bool written = where != nullptr && where->source().path && where->source().begin;
   for (const std::string& typed : overridden_)
-    if (plain == typed || plain.starts_with(typed + "."))
-      throw ConfigError("--set " + typed + ": " + key + ": " + problem);
-  if (where != nullptr && where->source().path && where->source().begin)
+    if (plain == typed || plain.starts_with(typed + ".") || (!written && typed.starts_with(plain + ".")))
+      throw ConfigError("--set " + typed + ": " + (plain == typed ? "" : key + ": ") + problem);
+  if (written)
     throw ConfigError(*where->source().path + ":" + std::to_string(where->source().begin.line) + ": " + key +
                       ": " + problem);
   for (const auto& [path, text] : json_texts_)

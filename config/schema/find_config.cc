@@ -19,8 +19,9 @@ std::string FindConfig(const std::string& kind, const std::string& name_or_path)
   std::sort(names.begin(), names.end());
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  throw ConfigError("no " + kind.substr(0, kind.size() - 1) + " '" + name_or_path + "'; allowed: " + list +
-                    ", or a path to a .toml file");
+  throw ConfigError(
+      "no " + kind.substr(0, kind.size() - 1) + " '" + name_or_path + "'; allowed: " + list +
+      (kind == "arms" ? ", or a path to a .toml or .json file" : ", or a path to a .toml file"));
 }
 
 }  // namespace reed

@@ -12,6 +12,12 @@ std::string ToText(double value) {
   return {buffer, end.ptr};
 }
 
+std::string ToShortText(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
+  return {buffer, end.ptr};
+}
+
 std::string ToText(const Bound& bound) {
   const std::string unit = std::string(bound.unit) == "1" ? "" : std::string(" ") + bound.unit;
   return ToText(bound.lo) + " ... " + ToText(bound.hi) + unit;

@@ -7,6 +7,9 @@
 namespace reed {
 namespace {
 
+constexpr const char* kLaws[] = {
+    "separated", "pd", "pd_tuned", "computed_torque", "fixed_nominal", "paper_printed", "paper_corrected"};
+
 class Rules {
  public:
   Rules(const Document& doc, const Scenario& s) : doc_(doc), s_(s) {}
@@ -47,8 +50,8 @@ class Rules {
       const double start = s_.reference.start_rad[i];
       if (start < lo || start > hi)
         Fail("reference.start_rad", "joint " + std::to_string(i + 1) + ": " + ToText(start) +
-                                        " rad is beyond its limit; allowed: " + ToText(lo) + " ... " +
-                                        ToText(hi) + " rad");
+                                        " rad is beyond its limit; allowed: " + ToShortText(lo) + " ... " +
+                                        ToShortText(hi) + " rad");
     }
   }
 
@@ -61,12 +64,28 @@ class Rules {
     }
   }
 
+  void LawIsKnown() const {
+    std::string list;
+    for (const char* law : kLaws) {
+      if (s_.control.law == law) return;
+      list += (list.empty() ? "" : ", ") + std::string(law);
+    }
+    Fail("control.law", "'" + s_.control.law + "' is unknown; allowed: " + list);
+  }
+
+  void AgesAreGraded() const {
+    if (s_.limits.hold_age_cycles >= s_.limits.stop_age_cycles)
+      Fail("limits.hold_age_cycles",
+           "rule hold_age_cycles < stop_age_cycles: " + std::to_string(s_.limits.hold_age_cycles) +
+               " is not below " + std::to_string(s_.limits.stop_age_cycles));
+  }
+
   /// s = 0 of the force loop is stable iff k_i < a k_p (30).
   void ForceLoopIsStable() const {
     if (s_.force.source == ForceConfig::Source::kNone || s_.control.k_i == 0.0) return;
     if (s_.control.k_i >= s_.control.a_force * s_.control.k_p)
       Fail("control.k_i", "rule k_i < a_force k_p: " + ToText(s_.control.k_i) + " is not below " +
-                              ToText(s_.control.a_force * s_.control.k_p) + " m/(s²·N)");
+                              ToShortText(s_.control.a_force * s_.control.k_p) + " m/(s²·N)");
   }
 
   /// One sample of delay: K_d + sigma_0max + sigma_1max/phi stays below 0.6 J_m/T, or the switching term
@@ -81,7 +100,7 @@ class Rules {
       if (damping > bound)
         Fail("control.K_d", "joint " + std::to_string(i + 1) +
                                 ": rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate: " +
-                                ToText(damping) + " is above " + ToText(bound) + " N·m·s/rad");
+                                ToShortText(damping) + " is above " + ToShortText(bound) + " N·m·s/rad");
     }
   }
 
@@ -94,15 +113,15 @@ class Rules {
     const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
     if (s_.wall.present && distance > reach)
       Fail("wall.point_m",
-           "the wall is " + ToText(distance) + " m away, the arm reaches " + ToText(reach) + " m");
+           "the wall is " + ToShortText(distance) + " m away, the arm reaches " + ToShortText(reach) + " m");
   }
 
   void BudgetsAddUp() const {
     const double sum = s_.timing.rx_budget_us + s_.timing.compute_budget_us + s_.timing.tx_budget_us;
     const double period = 1e6 / s_.timing.rate_hz;
     if (sum > period * (1.0 + 1e-9))
-      Fail("timing.rx_budget_us",
-           "rx + compute + tx budgets are " + ToText(sum) + " µs, the period is " + ToText(period) + " µs");
+      Fail("timing.rx_budget_us", "rx + compute + tx budgets are " + ToShortText(sum) +
+                                      " µs, the period is " + ToShortText(period) + " µs");
   }
 
  private:
@@ -136,6 +155,8 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.Sizes();
   rules.StartInsideLimits();
   rules.BoxHoldsStart();
+  rules.LawIsKnown();
+  rules.AgesAreGraded();
   rules.ForceLoopIsStable();
   rules.NoChatter();
   rules.WallIsMeaningful();

@@ -1,11 +1,12 @@
 #include "config/schema/scenario_file.h"
 
-#include <sstream>
+#include <algorithm>
 
 #include "config/schema/arm_file.h"
 #include "config/schema/reader.h"
 #include "config/schema/rules.h"
 #include "config/schema/scenario_fields.h"
+#include "config/schema/toml_text.h"
 #include "config/schema/writer.h"
 
 namespace reed {
@@ -155,9 +156,7 @@ std::string EffectiveToml(const Scenario& scenario) {
   section("limits", s.limits);
   section("timing", s.timing);
   root.insert("checks", list(s.checks));
-  std::ostringstream out;
-  out << root << '\n';
-  return out.str();
+  return ToText(root);
 }
 
 }  // namespace reed
