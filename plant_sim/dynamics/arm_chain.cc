@@ -46,7 +46,7 @@ void CheckSection(const ArmDescription& arm, std::size_t index, double length) {
       std::abs(s.length_m - length) <= kSameLength, arm,
       name + " has length " + std::to_string(s.length_m) + " m, its member " + std::to_string(length) + " m");
   Require(s.EA_N > 0.0 && s.EI_Nm2 > 0.0 && s.GJ_Nm2 > 0.0, arm, name + " needs positive EA, EI and GJ");
-  Require(s.rhoA_kgpm >= 0.0, arm, name + " needs a density that is not negative");
+  Require(s.rhoA_kgpm > 0.0, arm, name + " needs a positive rhoA");
 }
 
 double At(const std::vector<double>& values, std::size_t i, double otherwise) {
@@ -148,7 +148,7 @@ class Builder {
       CheckSection(arm_, section_, length);
       const BeamSection& s = arm_.sections[section_++];
       // A section with one EI for both planes has a polar second moment of area of 2 I: ρ_p = ρA 2I/A.
-      members.push_back({base, length, s.rhoA_kgpm, 2.0 * s.rhoA_kgpm * s.EI_Nm2 / s.EA_N});
+      members.push_back({base, length, s.rhoA_kgpm, 2.0 * s.rhoA_kgpm * s.EI_Nm2 / s.EA_N, {}});
     };
     sections_of_link_ = section_;
     add(AlongD(arm_.dh[i].d_m), arm_.dh[i].d_m);
@@ -173,7 +173,7 @@ class Builder {
       Member beam;
       beam.length = length;
       beam.elasticity = BeamElasticity(length, scale * s.EI_Nm2, scale * s.EA_N, scale * s.GJ_Nm2);
-      beam.inertia = BeamInertia(length, member.density, member.polar);
+      beam.inertia = BeamInertia(length, member.density, member.polar, member.relative);
       beam.link = static_cast<int>(i);
       if (here && local > length * kAtEnd && local < length * (1.0 - kAtEnd)) {
         beam.body_at = local;

@@ -5,7 +5,7 @@ namespace reed::plant {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-BeamInertia::BeamInertia(double length, double density, double polar)
+BeamInertia::BeamInertia(double length, double density, double polar, const RelativeMass& relative)
     : length_(length),
       m_(density * length),
       polar_(polar),
@@ -24,10 +24,10 @@ BeamInertia::BeamInertia(double length, double density, double polar)
 
   // What does not change with e: to second order in E_k, M_ee is constant.
   M_.setZero();
-  M_.block<kBending, kBending>(kA, kA) = NN_;
-  M_.block<kBending, kBending>(kB, kB) = NN_;
-  M_(kU, kU) = UU_;
-  M_(kTwist, kTwist) = polar_ * length / 3.0;
+  M_.block<kBending, kBending>(kA, kA) = NN_ + relative.density * integrals.NN;
+  M_.block<kBending, kBending>(kB, kB) = NN_ + relative.density * integrals.NN;
+  M_(kU, kU) = UU_ + relative.density * length / 3.0;
+  M_(kTwist, kTwist) = (polar_ + relative.polar) * length / 3.0;
   M_(kTwist, kAngular) = M_(kAngular, kTwist) = polar_ * length / 2.0;
   M_.block<3, 3>(kLinear, kLinear) = m_ * Matrix3d::Identity();
   M_.block<kBending, 1>(kA, kLinear + 1) = N_;

@@ -18,11 +18,19 @@ inline constexpr int kLinear = kElastic, kAngular = kElastic + 3;
 using BlockVec = Eigen::Matrix<double, kBlock, 1>;
 using BlockMat = Eigen::Matrix<double, kBlock, kBlock, Eigen::RowMajor>;
 
+/// Material that counts only for motion relative to the element's base, 1/2 e'ᵀ M_rel e': what the link's
+/// description has no mass for (a first link of which only the inertia about its axis is stated) still moves
+/// when the member bends.
+struct RelativeMass {
+  double density = 0.0;  // kg/m
+  double polar = 0.0;    // kg·m
+};
+
 class BeamInertia {
  public:
   BeamInertia() = default;
   /// `density` in kg/m, `polar` in kg·m: ρ_p, mass moment of inertia about the axis per length.
-  BeamInertia(double length, double density, double polar);
+  BeamInertia(double length, double density, double polar, const RelativeMass& relative = {});
 
   void Deform(const ElasticVec& e, const ElasticVec& e_dot);
 

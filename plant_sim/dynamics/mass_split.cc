@@ -2,8 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "plant_sim/dynamics/beam_inertia.h"
-
 namespace reed::plant {
 
 namespace {
@@ -51,8 +49,10 @@ RigidBody SplitMass(const RigidBody& body, std::vector<LinkMember>& members) {
   }
   const RigidBody rest = Rest(body, members, share, with_polar);
   for (LinkMember& member : members) {
+    const double polar_share = with_polar ? share : 0.0;
+    member.relative = {(1.0 - share) * member.density, (1.0 - polar_share) * member.polar};
     member.density *= share;
-    member.polar *= with_polar ? share : 0.0;
+    member.polar *= polar_share;
   }
   return rest;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "plant_sim/dynamics/beam_inertia.h"
 #include "plant_sim/dynamics/rigid_body.h"
 
 namespace reed::plant {
@@ -11,8 +12,10 @@ namespace reed::plant {
 struct LinkMember {
   Placement base;        // x along the member, in the link frame
   double length = 0.0;   // m
-  double density = 0.0;  // kg/m, of the section; after the split: what it keeps
-  double polar = 0.0;    // kg·m, mass moment of inertia about the axis per length
+  double density = 0.0;  // kg/m, of the section; after the split: its share of the link's mass
+  double polar = 0.0;    // kg·m, mass moment of inertia about the axis per length; likewise
+  RelativeMass
+      relative;  // after the split: the section's material that the link's description has no mass for
 };
 
 /// Scales the members' densities down, if need be, until the rest is a body that can exist, and returns the
