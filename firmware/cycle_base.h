@@ -20,6 +20,10 @@ struct LoopState {
   bool stop_wanted = false;
   bool missed_in_row_exceeded = false;
   int missed_in_row = 0;
+  bool phase_budget_exceeded = false;  // in too many cycles in a row
+  int broken_in_row = 0;
+  bool hold = false;     // after an overrun or a broken budget: repeat the last command
+  bool degrade = false;  // leave out what can wait
 };
 
 class CycleBase {

@@ -5,15 +5,21 @@
 #include <cstdint>
 
 #include "firmware/cycle_base.h"
+#include "firmware/rt/overrun.h"
+#include "firmware/rt/phase_budget.h"
 #include "firmware/telemetry/recorder.h"
 
 namespace reed {
 
 struct LoopOptions {
   double rate_hz = 1000.0;
-  double rx_budget_us = 400.0;
-  int max_missed_in_row = 20;
+  rt::PhaseLimits phases{{400'000, 300'000, 300'000}};
+  rt::OverrunPolicy overrun = rt::OverrunPolicy::kKeepGrid;
+  int max_missed_in_row = 19;
 };
+
+/// As the scenario's [timing] says.
+LoopOptions LoopOptionsFrom(const TimingConfig& timing);
 
 struct LoopResult {
   CycleStatus status = CycleStatus::kRunning;
@@ -25,8 +31,9 @@ struct LoopResult {
 LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
                    const std::atomic<bool>& stop) noexcept;
 
-/// Clock `lockstep`: the next cycle starts when this one is done. RT: safe.
-LoopResult RunLockstep(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+/// Clock `lockstep`: the next cycle starts when this one is done. No deadlines, no budgets, nothing missed,
+/// and no snapshot lost: a full ring is waited for. RT: safe.
+LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
                        const std::atomic<bool>& stop) noexcept;
 
 }  // namespace reed

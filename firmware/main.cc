@@ -19,8 +19,9 @@
 namespace reed {
 namespace {
 
-/// Telemetry of this many cycles fits the ring: 8 s at 1 kHz if the disk stands still.
-constexpr std::size_t kRingCapacity = 8192;
+/// Telemetry of this many cycles fits the ring: 1 s at 1 kHz if the disk stands still, and no more than the
+/// caches like.
+constexpr std::size_t kRingCapacity = 1024;
 
 /// What the real-time scope was granted and what it cost.
 struct Flight {
@@ -32,8 +33,7 @@ struct Flight {
 Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
            telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = StopFlag();
-  const LoopOptions loop{scenario.timing.rate_hz, scenario.timing.rx_budget_us,
-                         scenario.timing.max_missed_in_row};
+  const LoopOptions loop = LoopOptionsFrom(scenario.timing);
   const bool wall = options.clock == ClockKind::kWall;
   rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0, scenario.timing.cpu, true};
   rt::RealtimeScope scope(wanted);
@@ -44,7 +44,7 @@ Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
   const rt::Usage before = rt::ThreadUsage();
   const rt::HeapCount heap;
   // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
-  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(loop, cycle, ring, stop);
+  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(cycle, ring, stop);
   // ---- real time ends ----
   flight.heap_allocations = heap.calls();
   flight.page_faults = (rt::ThreadUsage() - before).page_faults();

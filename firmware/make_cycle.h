@@ -10,7 +10,8 @@ namespace reed {
 
 /// Parameter capacities the program is built for: unused columns of Y are zero and cost time, so small arms
 /// get a small one.
-inline constexpr int kFewParameters = 6;
+/// Seven and the known part fill whole vector registers.
+inline constexpr int kFewParameters = 7;
 inline constexpr int kManyParameters = kMaxParameters;
 
 template <int N>

@@ -108,11 +108,15 @@ struct ControlConfig {
   double a_force = 200.0;  // 1/s, force filter
   double normal_speed_limit_mps = 0.03;
   bool estimate_wall_stiffness = true;
+  double force_bandwidth_radps = 40.0;  // of k_p times the estimated wall stiffness (52)
   double sigma0_gain = 1.0, sigma1_gain = 5.0;  // c_0, c_1
   double sigma0_max = 3.0, sigma1_max = 0.4;
   double phi = 0.03;  // rad/s, boundary layer of sat(s/phi)
   double dead_zone_radps = 0.003;
   double leak_p = 0.05, leak_sigma = 0.2;  // 1/s
+  double Gamma_friction = 1.0;             // adaptation gain of Coulomb friction (49), times K_d
+  double coulomb_known = 0.0;              // share of the arm's Coulomb friction known at the start
+  double friction_speed_radps = 0.02;      // v_s (48)
   double observer_gain = 80.0;             // K_o, 1/s
   bool observer = false;                   // subtract r in free motion
   bool nodal_compensation = true;
@@ -137,7 +141,10 @@ struct TimingConfig {
   double rx_budget_us = 400.0;
   double compute_budget_us = 300.0;
   double tx_budget_us = 300.0;
-  int max_missed_in_row = 20;  // more missed cycles in a row: fault
+  enum class Overrun { kKeepGrid, kSkip, kHold, kStop } overrun = Overrun::kKeepGrid;
+  int max_missed_in_row = 19;  // more missed cycles in a row: fault
+  enum class PhaseAction { kCount, kHold, kDegrade, kFault } phase_action = PhaseAction::kCount;
+  int max_broken_in_row = 20;  // phase_action fault: more cycles in a row with a broken budget
   int priority = 80;           // SCHED_FIFO
   int cpu = -1;                // core to pin the loop to, -1: none
   int plant_cpu = -1;

@@ -8,6 +8,8 @@
 namespace reed {
 
 inline constexpr const char* kForceSources[] = {"none", "known", "unknown", "auto"};
+inline constexpr const char* kOverrunPolicies[] = {"keep_grid", "skip", "hold", "stop"};
+inline constexpr const char* kPhaseActions[] = {"count", "hold", "degrade", "fault"};
 inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine"};
 
 template <typename V>
@@ -122,6 +124,8 @@ void Fields(V& v, ControlConfig& c) {
   v.Number("normal_speed_limit_mps", c.normal_speed_limit_mps, {"m/s", 1e-4, 1},
            "of the force loop, with anti-windup");
   v.Boolean("estimate_wall_stiffness", c.estimate_wall_stiffness, "k_p follows the estimated wall stiffness");
+  v.Number("force_bandwidth_radps", c.force_bandwidth_radps, {"1/s", 1, 500},
+           "k_p times the estimated wall stiffness (52)");
   v.Number("sigma0_gain", c.sigma0_gain, {"1", 0, 1e4}, "c_0 (40)");
   v.Number("sigma1_gain", c.sigma1_gain, {"1", 0, 1e4}, "c_1 (41)");
   v.Number("sigma0_max", c.sigma0_max, {"N·m·s/rad", 0, 1e4}, "bound of sigma_0 for a joint with K_d = 10");
@@ -130,6 +134,12 @@ void Fields(V& v, ControlConfig& c) {
   v.Number("dead_zone_radps", c.dead_zone_radps, {"rad/s", 0, 1}, "no adaptation for smaller s");
   v.Number("leak_p", c.leak_p, {"1/s", 0, 100}, "p_hat leaks toward its start");
   v.Number("leak_sigma", c.leak_sigma, {"1/s", 0, 100}, "sigma leaks toward 0");
+  v.Number("Gamma_friction", c.Gamma_friction, {"1/s", 0, 1e4},
+           "adaptation gain of Coulomb friction (49), times K_d");
+  v.Number("coulomb_known", c.coulomb_known, {"1", 0, 1},
+           "share of the arm file's Coulomb friction that the controller knows at the start");
+  v.Number("friction_speed_radps", c.friction_speed_radps, {"rad/s", 1e-4, 10},
+           "speed at which modelled Coulomb friction is fully developed (48)");
   v.Number("observer_gain", c.observer_gain, {"1/s", 0, 1e3}, "K_o of the momentum observer");
   v.Boolean("observer", c.observer, "subtract the observed disturbance in free motion");
   v.Boolean("nodal_compensation", c.nodal_compensation,
@@ -160,7 +170,16 @@ void Fields(V& v, TimingConfig& c) {
            "receive phase: SYNC sent to measurements taken");
   v.Number("compute_budget_us", c.compute_budget_us, {"µs", 1, 20000}, "compute phase");
   v.Number("tx_budget_us", c.tx_budget_us, {"µs", 1, 20000}, "transmit phase");
+  v.Choice("overrun", c.overrun, kOverrunPolicies,
+           "after a cycle that ran past its period: keep_grid (go on) | skip (leave one period free) | hold "
+           "(repeat the last command once) | stop");
   v.Integer("max_missed_in_row", c.max_missed_in_row, {"1", 1, 1000}, "more missed cycles in a row: fault");
+  v.Choice(
+      "phase_action", c.phase_action, kPhaseActions,
+      "after a phase beyond its budget: count | hold (repeat the last command) | degrade (no adaptation, "
+      "no new nodal displacement) | fault (after max_broken_in_row)");
+  v.Integer("max_broken_in_row", c.max_broken_in_row, {"1", 0, 1000},
+            "phase_action fault: more cycles in a row with a broken budget stop the arm");
   v.Integer("priority", c.priority, {"1", 1, 98}, "SCHED_FIFO priority of the loop");
   v.Integer("cpu", c.cpu, {"1", -1, 1023}, "core of the loop; -1: any");
   v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023}, "core of the plant; -1: any");

@@ -1,6 +1,7 @@
 #include "firmware/telemetry/encode.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -16,6 +17,18 @@ void Assign(std::vector<T>& out, const std::array<U, N>& in, std::int32_t count)
 }
 
 void Assign(double (&out)[3], const Vec3& in) { std::copy(in.begin(), in.end(), out); }
+
+/// "; last three cycles, receive/compute/transmit: 400.1/12.3/4.0, … us"
+void AppendPhases(const rt::PhaseHistory& history, std::string& text) {
+  text += "; last three cycles, receive/compute/transmit:";
+  for (const rt::PhaseTimes& cycle : history) {
+    std::array<char, 64> line{};
+    std::snprintf(line.data(), line.size(), "%s %.1f/%.1f/%.1f", &cycle == &history.front() ? "" : ",",
+                  1e-3 * cycle[0], 1e-3 * cycle[1], 1e-3 * cycle[2]);
+    text += line.data();
+  }
+  text += " us";
+}
 
 }  // namespace
 
@@ -103,6 +116,9 @@ Bytes Encoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   out.missed = in.missed;
   out.overruns = in.overruns;
   out.dropped = in.dropped;
+  out.rx_over = in.rx_over;
+  out.compute_over = in.compute_over;
+  out.tx_over = in.tx_over;
   return Encode(out);
 }
 
@@ -138,6 +154,7 @@ Bytes Encoder::Event(const Snapshot& snapshot, int index, const char* text, std:
   out.joint = in.joint;
   out.value = in.value;
   out.text.assign(text, strnlen(text, kMaxTextBytes));
+  if (in.about_time) AppendPhases(snapshot.phase_history, out.text);
   return Encode(out);
 }
 

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "bus/frame.h"
+#include "firmware/rt/phase_budget.h"
 
 namespace reed::telemetry {
 
@@ -76,9 +77,12 @@ struct Timing {
   std::int32_t compute_ns = 0;
   std::int32_t tx_ns = 0;
   std::int32_t cycle_ns = 0;
-  std::int64_t missed = 0;  // since start, as the next two
+  std::int64_t missed = 0;  // since start, as all that follow
   std::int64_t overruns = 0;
   std::int64_t dropped = 0;
+  std::int64_t rx_over = 0;
+  std::int64_t compute_over = 0;
+  std::int64_t tx_over = 0;
 };
 
 /// lcmtypes/bus_t.lcm, all since start
@@ -106,6 +110,7 @@ struct Event {
   std::int32_t code = 0;
   std::int32_t joint = -1;  // 0-based, -1: not about one joint
   double value = 0.0;
+  bool about_time = false;  // its text ends with the snapshot's phase history
 };
 
 enum class Direction : std::uint8_t { kReceived, kSent };
@@ -130,6 +135,7 @@ struct Snapshot {
   Adaptation adaptation;
   Timing timing;
   BusCounters bus;
+  rt::PhaseHistory phase_history{};  // ns, only read when an event is about time
   std::array<Event, kMaxEvents> events{};
   std::array<RecordedFrame, kMaxFrames> frames{};
 

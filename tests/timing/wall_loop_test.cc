@@ -1,0 +1,233 @@
+// Parts 1 and 2 of the timing budget, in virtual time: budgets, overrun policies, stalls. No real waiting.
+#include "firmware/wall_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/timing/fake_cycle.h"
+
+namespace reed {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;
+constexpr std::int64_t kMs = 1'000'000;
+
+struct Rig {
+  explicit Rig(int cycles) : cycle(clock, cycles), ring(256) {}
+
+  LoopResult Run() { return WallLoop(clock, options, cycle, ring).Run(stop); }
+
+  std::vector<telemetry::Snapshot> Recorded() {
+    std::vector<telemetry::Snapshot> all;
+    telemetry::Snapshot one;
+    while (ring.Pop(one)) all.push_back(one);
+    return all;
+  }
+
+  /// Cycle 5 loses this much time behind its last border.
+  void StallAt5(std::int64_t ns) {
+    cycle.cost = [ns](std::uint32_t k) {
+      test::CycleCost cost;
+      cost.after = k == 5 ? ns : 0;
+      return cost;
+    };
+  }
+
+  rt::VirtualClock clock{7'000};
+  test::FakeCycle cycle;
+  telemetry::SnapshotRing ring;
+  LoopOptions options;
+  std::atomic<bool> stop{false};
+};
+
+int Events(const std::vector<telemetry::Snapshot>& all, protect::Reason reason) {
+  int count = 0;
+  for (const telemetry::Snapshot& one : all)
+    for (int i = 0; i < one.num_events; ++i)
+      count += one.events[static_cast<std::size_t>(i)].code == static_cast<int>(reason) ? 1 : 0;
+  return count;
+}
+
+TEST(WallLoop, PunctualCyclesStayOnTheGridAndNothingIsCounted) {
+  Rig rig(50);
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(result.cycles, 50);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.overruns, 0);
+  for (std::size_t k = 0; k < 50; ++k)
+    EXPECT_EQ(rig.cycle.started_ns[k], 7'000 + static_cast<std::int64_t>(k + 1) * kPeriod);
+  EXPECT_EQ(Events(rig.Recorded(), protect::Reason::kPhaseBudget), 0);
+}
+
+TEST(WallLoop, ADefaultLoopSurvivesAStallOfTenMilliseconds) {
+  Rig rig(40);
+  rig.StallAt5(10 * kMs);
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(rig.cycle.stopped_at, -1);
+  EXPECT_EQ(result.cycles, 40);
+  EXPECT_EQ(result.missed, 10);
+  EXPECT_EQ(result.overruns, 1);
+  EXPECT_EQ((rig.cycle.started_ns[6] - 7'000) % kPeriod, 0) << "the grid has kept its phase";
+  const auto recorded = rig.Recorded();
+  EXPECT_EQ(Events(recorded, protect::Reason::kStall), 1);
+  EXPECT_EQ(recorded[5].timing.missed, 10) << "told with the cycle that lost the time";
+}
+
+TEST(WallLoop, ADefaultLoopStopsWithinTwentyMissedCycles) {
+  Rig rig(40);
+  rig.StallAt5(20 * kMs);
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(result.missed, 20);
+  EXPECT_EQ(rig.cycle.stopped_at, 6);
+}
+
+TEST(WallLoop, NineteenMissedCyclesAreStillSurvived) {
+  Rig rig(40);
+  rig.StallAt5(19 * kMs);
+  EXPECT_EQ(rig.Run().missed, 19);
+  EXPECT_EQ(rig.cycle.stopped_at, -1);
+}
+
+TEST(WallLoop, MissesAddUpWhileNoCycleIsPunctual) {
+  Rig rig(40);
+  rig.cycle.cost = [](std::uint32_t k) {
+    test::CycleCost cost;
+    cost.after = k >= 5 ? 2 * kMs : 0;  // two points missed in each cycle from the sixth on
+    return cost;
+  };
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(rig.cycle.stopped_at, 15) << "ten such cycles are twenty misses";
+  EXPECT_EQ(rig.cycle.seen[10].missed_in_row, 10);
+  EXPECT_GE(result.missed, 20);
+}
+
+TEST(WallLoop, SkipLeavesOneMorePointFree) {
+  Rig rig(20);
+  rig.options.overrun = rt::OverrunPolicy::kSkip;
+  rig.StallAt5(kMs);
+  EXPECT_EQ(rig.Run().missed, 2);
+  EXPECT_EQ(rig.cycle.started_ns[6] - rig.cycle.started_ns[5], 3 * kPeriod);
+}
+
+TEST(WallLoop, HoldRepeatsTheCommandForExactlyOneCycle) {
+  Rig rig(20);
+  rig.options.overrun = rt::OverrunPolicy::kHold;
+  rig.StallAt5(kMs);
+  rig.Run();
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(rig.cycle.seen[k].hold, k == 6) << k;
+}
+
+TEST(WallLoop, StopStopsAtTheFirstOverrun) {
+  Rig rig(20);
+  rig.options.overrun = rt::OverrunPolicy::kStop;
+  rig.StallAt5(kMs);
+  rig.Run();
+  EXPECT_EQ(rig.cycle.stopped_at, 6);
+}
+
+TEST(WallLoop, TheReceivePhaseEndsOnItsBudgetHoweverLateTheWakeUp) {
+  Rig rig(5);
+  rig.clock.set_wake_delay_ns(250'000);
+  rig.Run();
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(rig.cycle.rx_deadline[k], rig.cycle.started_ns[k] + 400'000);
+  EXPECT_EQ(rig.Recorded()[3].timing.wake_ns, 250'000);
+}
+
+/// Compute takes 301 µs of 300 in cycles 4, 5 and 6.
+void SlowCompute(Rig& rig) {
+  rig.cycle.cost = [](std::uint32_t k) {
+    test::CycleCost cost;
+    if (k >= 4 && k <= 6) cost.compute = 301'000;
+    return cost;
+  };
+}
+
+TEST(PhaseBudget, CountOnlyCountsAndTellsOnceWithTheLastThreeCycles) {
+  Rig rig(12);
+  SlowCompute(rig);
+  rig.Run();
+  for (const LoopState& state : rig.cycle.seen) {
+    EXPECT_FALSE(state.hold);
+    EXPECT_FALSE(state.degrade);
+  }
+  const auto recorded = rig.Recorded();
+  EXPECT_EQ(recorded.back().timing.compute_over, 3);
+  EXPECT_EQ(recorded.back().timing.rx_over, 0);
+  ASSERT_EQ(Events(recorded, protect::Reason::kPhaseBudget), 1);
+  ASSERT_EQ(recorded[4].num_events, 1);
+  EXPECT_EQ(recorded[4].events[0].value, 1.0) << "compute";
+  const rt::PhaseHistory expected{
+      {{100'000, 50'000, 10'000}, {100'000, 50'000, 10'000}, {100'000, 301'000, 10'000}}};
+  EXPECT_EQ(recorded[4].phase_history, expected);
+}
+
+TEST(PhaseBudget, ExactlyTheBudgetIsWithinIt) {
+  Rig rig(12);
+  rig.cycle.cost = [](std::uint32_t) { return test::CycleCost{400'000, 300'000, 300'000 - 1, 0}; };
+  rig.Run();
+  const auto recorded = rig.Recorded();
+  EXPECT_EQ(recorded.back().timing.rx_over + recorded.back().timing.compute_over, 0);
+}
+
+TEST(PhaseBudget, HoldAndDegradeLastAsLongAsTheBreachAndOneCycle) {
+  for (const rt::PhaseAction action : {rt::PhaseAction::kHold, rt::PhaseAction::kDegrade}) {
+    Rig rig(12);
+    rig.options.phases.action = action;
+    SlowCompute(rig);
+    rig.Run();
+    for (std::size_t k = 0; k < 12; ++k) {
+      const bool expected = k >= 5 && k <= 7;
+      EXPECT_EQ(rig.cycle.seen[k].hold, expected && action == rt::PhaseAction::kHold) << k;
+      EXPECT_EQ(rig.cycle.seen[k].degrade, expected && action == rt::PhaseAction::kDegrade) << k;
+    }
+  }
+}
+
+TEST(PhaseBudget, FaultComesAfterSoManyInARowAndNotBefore) {
+  Rig rig(12);
+  rig.options.phases.action = rt::PhaseAction::kFault;
+  rig.options.phases.max_in_row = 3;
+  SlowCompute(rig);
+  rig.Run();
+  EXPECT_EQ(rig.cycle.stopped_at, -1);
+
+  Rig strict(12);
+  strict.options.phases.action = rt::PhaseAction::kFault;
+  strict.options.phases.max_in_row = 2;
+  SlowCompute(strict);
+  strict.Run();
+  EXPECT_EQ(strict.cycle.stopped_at, 7) << "the cycle after the third";
+}
+
+TEST(WallLoop, TwoSecondsOfSilenceAreALostBus) {
+  Rig rig(5000);
+  rig.cycle.silent = true;
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(result.status, CycleStatus::kBusLost);
+  EXPECT_NEAR(static_cast<double>(result.cycles), 2001, 2);
+}
+
+TEST(WallLoop, AFullRingCostsSnapshotsAndNeverACycle) {
+  Rig rig(300);  // the ring holds 256 and nobody reads
+  const LoopResult result = rig.Run();
+  EXPECT_EQ(result.cycles, 300);
+  EXPECT_EQ(result.dropped, 300 - 256);
+  EXPECT_EQ(result.missed, 0);
+}
+
+TEST(LoopOptions, FollowTheScenario) {
+  TimingConfig timing;
+  timing.rx_budget_us = 250.5;
+  timing.overrun = TimingConfig::Overrun::kSkip;
+  timing.phase_action = TimingConfig::PhaseAction::kDegrade;
+  timing.max_broken_in_row = 7;
+  const LoopOptions options = LoopOptionsFrom(timing);
+  EXPECT_EQ(options.phases.budget_ns[0], 250'500);
+  EXPECT_EQ(options.overrun, rt::OverrunPolicy::kSkip);
+  EXPECT_EQ(options.phases.action, rt::PhaseAction::kDegrade);
+  EXPECT_EQ(options.phases.max_in_row, 7);
+}
+
+}  // namespace
+}  // namespace reed
