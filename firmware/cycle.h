@@ -27,7 +27,6 @@ class Cycle final : public CycleBase {
 
   CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const LoopState& loop,
                   telemetry::Snapshot& snapshot) noexcept override {
-    const std::int64_t begin = clock_.NowNs();
     bus_.SendSync(cycle, snapshot);
     const bool all_answered = bus_.Receive(rx_deadline_ns, snapshot);  // receive
     const std::int64_t received = clock_.NowNs();
@@ -40,7 +39,7 @@ class Cycle final : public CycleBase {
     if (verdict.trip != protect::Reason::kNone && event == mode::Event::kTrip)
       Note(verdict.trip, verdict.joint, verdict.value, snapshot);
 
-    const strategy::Decision<N>& decision = Control(measured);                 // control
+    const strategy::Decision<N>& decision = Control(measured, loop);           // control
     const model::Vec<N> tau = Protect(decision, measured, verdict, snapshot);  // protect: the last word
     const std::int64_t computed = clock_.NowNs();
 
@@ -49,11 +48,11 @@ class Cycle final : public CycleBase {
     const std::int64_t sent = clock_.NowNs();
 
     Record(measured, decision, tau, verdict, snapshot);  // record
-    snapshot.timing.rx_ns = static_cast<std::int32_t>(received - begin);
+    snapshot.timing.rx_ns = static_cast<std::int32_t>(received - snapshot.time_ns);
     snapshot.timing.compute_ns = static_cast<std::int32_t>(computed - received);
     snapshot.timing.tx_ns = static_cast<std::int32_t>(sent - computed);
-    snapshot.timing.cycle_ns = static_cast<std::int32_t>(sent - begin);
-    return Status(all_answered);
+    snapshot.timing.cycle_ns = static_cast<std::int32_t>(sent - snapshot.time_ns);
+    return Status(loop.stop_wanted);
   }
 
   mode::Mode mode() const noexcept override { return supervisor_.mode(); }
@@ -92,10 +91,16 @@ class Cycle final : public CycleBase {
     if (!active()) return {};
     if (loop.missed_in_row_exceeded)
       return {Reason::kMissedCycles, -1, static_cast<double>(loop.missed_in_row), 0};
+    if (loop.phase_budget_exceeded)
+      return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(loop.broken_in_row), 0};
     for (int i = 0; i < N; ++i) {
       const bus::DriveState state = measured.drive[static_cast<std::size_t>(i)];
       if (state != bus::DriveState::kEnabled) return {Reason::kDriveFault, i, static_cast<double>(state), 0};
     }
+    // A law that tracks the measured force presses blindly without it; one that can do without says so by its
+    // source.
+    if (source_ == strategy::ForceSource::kKnown && limits_.TooOld(measured.wrench_age))
+      return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
     const double force = measured.wrench_age == 0 ? measured.force.norm() : 0.0;
     return limits_.Judge(measured.theta, measured.theta_dot, force, measured.OldestAge(),
                          measured.OldestJoint());
@@ -113,9 +118,11 @@ class Cycle final : public CycleBase {
     return seen;
   }
 
-  const strategy::Decision<N>& Control(const Measurement<N>& measured) noexcept {
+  const strategy::Decision<N>& Control(const Measurement<N>& measured, const LoopState& loop) noexcept {
     if (!active()) strategy_.Settle(measured);
-    return strategy_.Step(measured, time_s(), active(), tau_before_);
+    if (loop.hold && active()) return strategy_.Repeat();
+    return strategy_.Step(measured, time_s(), active(), tau_before_,
+                          loop.degrade ? strategy::Effort::kReduced : strategy::Effort::kFull);
   }
 
   model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured,
@@ -127,7 +134,7 @@ class Cycle final : public CycleBase {
         verdict.trip != protect::Reason::kNone) {  // found by the gate itself: the law's torque is not finite
       mode::Observation seen;
       seen.trip = true;
-      supervisor_.Step(seen);
+      Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)), snapshot);
       Note(verdict.trip, verdict.joint, verdict.value, snapshot);
     }
     if (decision.force.speed_limited) verdict.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
@@ -151,6 +158,8 @@ class Cycle final : public CycleBase {
       source_ = decision.source;
       Note(protect::Reason::kForceSourceChange, -1, static_cast<double>(source_), snapshot);
     }
+    if (decision.collision.joint >= 0)
+      Note(protect::Reason::kCollision, decision.collision.joint, decision.collision.value, snapshot);
     if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f, snapshot);
     snapshot.dof = N;
     snapshot.num_parameters = arm_.num_parameters;
@@ -164,13 +173,13 @@ class Cycle final : public CycleBase {
     snapshot.control.limits = verdict.limits;
   }
 
-  CycleStatus Status(bool all_answered) noexcept {
-    silent_in_row_ = all_answered ? 0 : silent_in_row_ + 1;
+  CycleStatus Status(bool stop_wanted) noexcept {
     if (!bus_.alive()) return CycleStatus::kBusLost;
     if (supervisor_.mode() == mode::Mode::kFault && supervisor_.cycles_in_mode() >= kCyclesAfterFault)
       return CycleStatus::kFinished;
-    const bool ended = was_active_ && !active() && supervisor_.mode() != mode::Mode::kFault;
     was_active_ = was_active_ || active();
+    const bool ended =
+        (was_active_ || stop_wanted) && !active() && supervisor_.mode() != mode::Mode::kFault;
     if (ended && supervisor_.cycles_in_mode() >= kCyclesAfterStop) return CycleStatus::kFinished;
     return CycleStatus::kRunning;
   }
@@ -190,7 +199,6 @@ class Cycle final : public CycleBase {
   strategy::ForceSource source_ = strategy::ForceSource::kNone;
   protect::Reason trip_ = protect::Reason::kNone;
   bool was_active_ = false;
-  int silent_in_row_ = 0;
 };
 
 }  // namespace reed

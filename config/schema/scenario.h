@@ -114,9 +114,9 @@ struct ControlConfig {
   double phi = 0.03;  // rad/s, boundary layer of sat(s/phi)
   double dead_zone_radps = 0.003;
   double leak_p = 0.05, leak_sigma = 0.2;  // 1/s
-  double Gamma_friction = 1.0;             // adaptation gain of Coulomb friction (49), times K_d
+  double Gamma_friction = 10.0;            // adaptation gain of Coulomb friction (49), times K_d
   double coulomb_known = 0.0;              // share of the arm's Coulomb friction known at the start
-  double friction_speed_radps = 0.02;      // v_s (48)
+  double friction_speed_radps = 0.01;      // v_s (48)
   double observer_gain = 80.0;             // K_o, 1/s
   bool observer = false;                   // subtract r in free motion
   bool nodal_compensation = true;

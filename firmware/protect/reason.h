@@ -16,6 +16,7 @@ enum class Reason : std::int32_t {
   kDriveState = 4,
   kPhaseBudget = 5,
   kStall = 6,
+  kCollision = 7,
   // trips
   kJointPosition = 32,
   kJointSpeed = 33,
@@ -59,6 +60,8 @@ constexpr const char* Text(int code) noexcept {
       return "a phase was longer than its budget, value is the phase: 0 receive, 1 compute, 2 transmit";
     case Reason::kStall:
       return "cycles were missed, value is how many";
+    case Reason::kCollision:
+      return "collision: the observed torque of a joint jumped although nothing was to be touched, N·m";
     case Reason::kJointPosition:
       return "joint position limit, rad";
     case Reason::kJointSpeed:

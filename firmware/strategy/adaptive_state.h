@@ -1,6 +1,7 @@
-// Everything the laws learn, and one robust step of it. RT: safe.
+// Everything the laws learn, and one step of it: robust for the robust law, plain for the paper's. RT: safe.
 #pragma once
 
+#include "firmware/control/friction.h"
 #include "firmware/control/known_force.h"
 #include "firmware/control/robust_update.h"
 #include "firmware/control/unknown_force.h"
@@ -10,12 +11,13 @@ namespace reed::strategy {
 
 template <int N, int P>
 struct AdaptiveState {
-  model::Vec<P> p_hat;                            // (34)
-  model::Vec<P> eta_hat = model::Vec<P>::Zero();  // (39)
-  double sigma_0 = 0.0;                           // (40)
-  double sigma_1 = 0.0;                           // (41)
+  model::Vec<P> p_hat;      // (34)
+  model::Vec<P> eta_hat;    // (39)
+  double sigma_0 = 0.0;     // (40)
+  double sigma_1 = 0.0;     // (41)
+  model::Vec<N> kappa_hat;  // (49)
 
-  explicit AdaptiveState(const model::Vec<P>& p_0) : p_hat(p_0) {}
+  explicit AdaptiveState(const Gains<N, P>& g) : p_hat(g.p_0), eta_hat(g.eta_0), kappa_hat(g.kappa_0) {}
 
   /// Gradient update of p̂ (34), then leak and box.
   void UpdateParameters(const Gains<N, P>& g, const model::Vec<P>& Gamma, const model::ArmModel<N, P>& arm,
@@ -32,6 +34,15 @@ struct AdaptiveState {
                                   g.sigma0_max, T);
     sigma_1 = control::RobustStep(sigma_1, control::Sigma1Rate<N>(g.sliding.c_1, s_dz), g.leak_sigma,
                                   g.sigma1_max, T);
+  }
+
+  /// Coulomb friction (49), then leak toward what was known and box.
+  void UpdateFriction(const Gains<N, P>& g, const model::Vec<N>& v, const model::Vec<N>& s,
+                      double T) noexcept {
+    const model::Vec<N> s_dz = control::DeadZone(s, g.dead_zone);
+    const model::Vec<N> rate = control::CoulombUpdate<N>(g.Gamma_c, v, g.friction_speed, s_dz);
+    const model::Vec<N> none = model::Vec<N>::Zero();
+    kappa_hat = control::RobustStep<N>(kappa_hat, rate, g.kappa_0, g.leak_p, none, g.kappa_max, T);
   }
 };
 

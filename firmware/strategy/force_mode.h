@@ -1,5 +1,5 @@
-// Force mode: seek the wall, latch on the first contact, track the desired force. The only place that knows
-// when the normal direction belongs to the force. RT: safe.
+// Force mode: seek the wall, latch on the first contact, track the desired force with gains that fit the
+// wall. The only place that knows when the normal direction belongs to the force. RT: safe.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "firmware/control/force_loop.h"
 #include "firmware/reference/force_profile.h"
+#include "firmware/strategy/wall_stiffness.h"
 
 namespace reed::strategy {
 
@@ -15,7 +16,10 @@ struct ForceModeConfig {
   double threshold_N = 1.0;
   double approach_speed_mps = 0.01;
   double speed_limit_mps = 0.03;
-  double approach_time_s = 0.1;  // the approach speed is reached this smoothly
+  bool schedule = false;                        // k_p follows the estimated stiffness (52)
+  double bandwidth_radps = 60.0;                // ω_f of (52)
+  double approach_time_s = 0.1;                 // the approach speed is reached this smoothly
+  double least_k_p = 0.5e-3, most_k_p = 30e-3;  // m/(s·N), bounds of (52)
 };
 
 /// What the force mode wants of the law this cycle.
@@ -30,18 +34,21 @@ struct ForceDemand {
 
 class ForceMode {
  public:
-  ForceMode(const ForceModeConfig& config, const reference::ForceProfile& profile) noexcept
-      : config_(config), profile_(profile) {}
+  ForceMode(const ForceModeConfig& config, const reference::ForceProfile& profile, double T) noexcept
+      : config_(config), profile_(profile), wall_(config.bandwidth_radps / config.gains.k_p, T), T_(T) {}
 
   void Reset() noexcept {
     state_ = {};
     contact_s_ = kNoContact;
+    wall_.Reset();
   }
   bool in_contact() const noexcept { return contact_s_ < kNoContact; }
+  bool Wanted(double t_s) const noexcept { return profile_.Wanted(t_s); }
   const control::ForceState& state() const noexcept { return state_; }
+  double wall_stiffness() const noexcept { return wall_.value(); }
 
-  /// f: normal force as known now, N. T: period, s.
-  ForceDemand Step(double t_s, double f, double T) noexcept {
+  /// f: normal force as known now, N. x: normal tip position by motor angles, m.
+  ForceDemand Step(double t_s, double f, double x) noexcept {
     ForceDemand demand;
     if (!profile_.Wanted(t_s)) {
       Reset();
@@ -54,9 +61,10 @@ class ForceMode {
     }
     double wanted = 0.0;  // normal speed into the wall
     if (in_contact()) {
+      wall_.Step(f, x);
       demand.f_d = profile_.At(t_s, contact_s_);
       demand.e_f = demand.f_d - f;
-      wanted = control::NormalSpeed(config_.gains, demand.e_f, state_.e_f_integral);
+      wanted = control::NormalSpeed(Gains(), demand.e_f, state_.e_f_integral);
     } else {
       wanted = config_.approach_speed_mps *
                reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
@@ -65,18 +73,29 @@ class ForceMode {
     demand.speed_limited = allowed != wanted;
     // Anti-windup: no more of what the limit already refuses.
     if (in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
-      state_.e_f_integral += T * demand.e_f;
+      state_.e_f_integral += T_ * demand.e_f;
     demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
     demand.z = state_.z;
     // Exact step of ż = a (u − z): stable for any a T.
-    state_.z = allowed + (state_.z - allowed) * std::exp(-config_.gains.a * T);
+    state_.z = allowed + (state_.z - allowed) * std::exp(-config_.gains.a * T_);
     return demand;
+  }
+
+  /// (52): k_i keeps its ratio to k_p, so that k_i < a k_p holds on every wall.
+  control::ForceGains Gains() const noexcept {
+    if (!config_.schedule) return config_.gains;
+    control::ForceGains g = config_.gains;
+    g.k_p = std::clamp(config_.bandwidth_radps / wall_.value(), config_.least_k_p, config_.most_k_p);
+    g.k_i = config_.gains.k_i * g.k_p / config_.gains.k_p;
+    return g;
   }
 
  private:
   static constexpr double kNoContact = 1e12;
   ForceModeConfig config_;
   reference::ForceProfile profile_;
+  WallStiffness wall_;
+  double T_;
   control::ForceState state_;
   double contact_s_ = kNoContact;
 };

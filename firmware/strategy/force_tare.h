@@ -1,5 +1,4 @@
-// The wrench sensor's zero: the mean of what it reads while the arm stands still and touches nothing. RT:
-// safe.
+// The wrench sensor's zero: the mean of what it reads while the arm touches nothing. RT: safe.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +10,7 @@ class ForceTare {
   /// Averages at most this many readings; then the zero stays.
   static constexpr int kReadings = 64;
 
+  /// Forgets the readings; the old zero holds until the first new one.
   void Restart() noexcept { count_ = 0; }
 
   void Take(const Eigen::Vector3d& force) noexcept {

@@ -7,19 +7,23 @@
 #pragma once
 
 #include "firmware/arm_bus/measurement.h"
+#include "firmware/control/force_estimate.h"
 #include "firmware/control/force_loop.h"
 #include "firmware/control/observer.h"
 #include "firmware/model/dynamics.h"
 #include "firmware/model/nodal_compensation.h"
 #include "firmware/model/regressor.h"
 #include "firmware/reference/joint_path.h"
-#include "firmware/strategy/adaptive_state.h"
+#include "firmware/strategy/collision.h"
 #include "firmware/strategy/force_mode.h"
-#include "firmware/strategy/force_tare.h"
+#include "firmware/strategy/law_bank.h"
+#include "firmware/strategy/nodal_reference.h"
+#include "firmware/strategy/normal_force.h"
 
 namespace reed::strategy {
 
-enum class ForceSource : std::int8_t { kNone = 0, kKnown = 1, kUnknown = 2, kObserver = 3 };
+/// kReduced leaves out what can wait a cycle: learning and a new nodal displacement.
+enum class Effort : std::uint8_t { kFull, kReduced };
 
 /// Everything one cycle decided, for the limits and for telemetry.
 template <int N>
@@ -33,7 +37,8 @@ struct Decision {
   model::Vec<N> s = model::Vec<N>::Zero();
   model::Vec<N> tau_law = model::Vec<N>::Zero();
   Eigen::Vector3d tip_plan = Eigen::Vector3d::Zero();
-  double f = 0.0;  // measured normal force, tared
+  double f = 0.0;       // normal force as known, N: tared sensor or observer
+  Collision collision;  // joint -1: none in this cycle
 };
 
 template <int N, int P>
@@ -41,57 +46,74 @@ class Separated {
  public:
   Separated(const Scenario& scenario, const model::ArmModel<N, P>& arm, reference::JointPath<N> path)
       : arm_(arm),
-        gains_(scenario.control, arm),
+        gains_(scenario, arm),
+        law_(LawBank<N, P>::Find(scenario.control.law)),
         path_(std::move(path)),
         normal_(scenario.wall.normal),
         wall_present_(scenario.wall.present),
-        source_config_(scenario.force.source),
-        compensate_(scenario.control.nodal_compensation),
+        compensate_(scenario.control.nodal_compensation && law_.nodal_allowed),
         T_(1.0 / scenario.timing.rate_hz),
+        source_(scenario.force.source),
         force_({{scenario.control.k_p, scenario.control.k_i, scenario.control.a_force},
                 scenario.force.contact_threshold_N,
                 scenario.force.approach_speed_mps,
-                scenario.control.normal_speed_limit_mps},
-               reference::ForceProfile(scenario.force)),
-        adaptive_(gains_.p_0),
+                scenario.control.normal_speed_limit_mps,
+                scenario.control.estimate_wall_stiffness,
+                scenario.control.force_bandwidth_radps},
+               reference::ForceProfile(scenario.force), T_),
+        normal_force_(normal_, T_),
+        nodal_(T_),
+        adaptive_(gains_),
         observer_(scenario.control.observer_gain, T_),
-        subtract_observer_(scenario.control.observer),
+        collision_(kCollisionShare * arm.torque_limit, T_),
         nominal_(model::BodiesFor<N, P>(arm, gains_.p_0)),
-        nominal_viscous_(model::ViscousFriction<N, P>(arm, gains_.p_0)) {}
+        nominal_viscous_(model::ViscousFriction<N, P>(arm, gains_.p_0)),
+        kappa_rate_(RateOf(path_)) {}
 
   /// One cycle. t_s since the arm became active; learn: false while the brakes hold the arm (nothing to learn
   /// from). tau_before: torque that acted since the last cycle.
   const Decision<N>& Step(const Measurement<N>& measured, double t_s, bool learn,
-                          const model::Vec<N>& tau_before) noexcept {
+                          const model::Vec<N>& tau_before, Effort effort = Effort::kFull) noexcept {
     Decision<N>& d = decision_;
     model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
 
+    Observe(measured, tau_before);
     d.plan = path_.At(t_s);
     d.tip_plan = PlannedTip(d.plan);
-    d.source = Source(measured);
-    d.f = normal_.dot(tare_.Apply(measured.force));
-
-    d.force = learn && d.source != ForceSource::kNone ? force_.Step(t_s, d.f, T_) : ForceDemand{};
-    d.desired = Compensate(d.plan, d.force.f_d);
-    d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
-    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
-    if (d.force.active) control::ReplaceNormal<N>(d.normal, d.force.z, d.force.z_dot, d.aux);
-    d.s = control::SlidingError<N>(d.aux.v, measured.theta_dot);
+    d.source = Source(measured, t_s, learn);
+    d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, observer_.r()),
+                             force_.in_contact());
+    d.force = learn && d.source != ForceSource::kNone ? force_.Step(t_s, d.f, normal_.dot(kin_.tip))
+                                                      : ForceDemand{};
+    d.desired = learn ? nodal_.Step(d.plan, NodalOffset(d.force.f_d, effort)) : d.plan;  // (22)
+    Aim(d, measured);
 
     model::ComputeRegressor<N, P>(arm_, kin_, d.aux.v, d.aux.v_dot, regressor_);
-    Observe(measured, tau_before);
-    d.tau_law = Torque(d);
-    if (learn) Learn(d);
+    const model::Vec<N> JtF_d = d.normal.J_n.transpose() * d.force.f_d;
+    const LawInput<N, P> in{gains_, arm_, d.aux, d.s, regressor_, JtF_d, Subtracted(d), T_};
+    const bool known = d.source == ForceSource::kKnown || d.source == ForceSource::kObserver;
+    d.tau_law = known ? law_.known(in, adaptive_) : law_.unknown(in, adaptive_);
+    if (learn && effort == Effort::kFull)
+      known ? law_.learn_known(in, adaptive_) : law_.learn_unknown(in, adaptive_);
+    d.collision = learn && !d.force.active ? collision_.Step(observer_.r()) : Collision{};
     return d;
+  }
+
+  /// Instead of Step(), after a cycle that came too late: what the last one decided.
+  const Decision<N>& Repeat() noexcept {
+    decision_.force.latched_now = false;
+    return decision_;
   }
 
   /// While the arm stands still and free: the force sensor's zero, the observer's start, nothing learnt.
   void Settle(const Measurement<N>& measured) noexcept {
-    if (measured.wrench_age == 0) tare_.Take(measured.force);
+    normal_force_.Settle(measured.force, measured.wrench_age == 0);
     force_.Reset();
+    nodal_.Reset();
     observer_.Reset(Momentum(measured).momentum);
+    collision_.Reset(observer_.r());
   }
-  bool settled() const noexcept { return tare_.complete(); }
+  bool settled() const noexcept { return normal_force_.settled(); }
 
   const AdaptiveState<N, P>& adaptive() const noexcept { return adaptive_; }
   const model::Vec<N>& observed() const noexcept { return observer_.r(); }
@@ -99,19 +121,11 @@ class Separated {
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
 
  private:
-  ForceSource Source(const Measurement<N>& measured) const noexcept {
-    using Source = ForceConfig::Source;
-    switch (source_config_) {
-      case Source::kNone:
-        return ForceSource::kNone;
-      case Source::kKnown:
-        return ForceSource::kKnown;
-      case Source::kUnknown:
-        return ForceSource::kUnknown;
-      case Source::kAuto:
-        return measured.wrench_age <= kLossCycles ? ForceSource::kKnown : ForceSource::kUnknown;
-    }
-    return ForceSource::kNone;
+  ForceSource Source(const Measurement<N>& measured, double t_s, bool learn) noexcept {
+    const ForceSource source = source_.Step(measured.wrench_age, learn && force_.Wanted(t_s));
+    if (source_.returning() && measured.wrench_age == 0 && !force_.in_contact())
+      normal_force_.Retare(measured.force, source_.fresh_in_row());
+    return source;
   }
 
   Eigen::Vector3d PlannedTip(const control::Reference<N>& plan) noexcept {
@@ -119,38 +133,42 @@ class Separated {
     return plan_kin_.tip;
   }
 
-  /// θ_d after nodal displacement (22), from current estimates.
-  control::Reference<N> Compensate(const control::Reference<N>& plan, double f_d) noexcept {
-    if (!compensate_) return plan;
-    const model::Bodies<N> bodies = model::BodiesFor<N, P>(arm_, adaptive_.p_hat);
+  /// θ_d − θ_plan: nodal displacement (22), from current estimates. In contact p̂ also explains what the wall
+  /// does, so the weight is that of the last free estimate.
+  const model::Vec<N>& NodalOffset(double f_d, Effort effort) noexcept {
+    if (!compensate_ || effort == Effort::kReduced) return offset_;
+    if (!force_.in_contact()) p_free_ = adaptive_.p_hat;
+    const model::Bodies<N> bodies = model::BodiesFor<N, P>(arm_, p_free_);
     model::Wrench press;
     press.F = f_d * normal_;
-    control::Reference<N> desired = plan;
-    desired.theta_d += model::CompensateNodes<N, P>(arm_, plan_kin_, bodies, press).offset;  // (22)
-    return desired;
+    offset_ = model::CompensateNodes<N, P>(arm_, plan_kin_, bodies, press).offset;
+    return offset_;
   }
 
-  model::Vec<N> Torque(const Decision<N>& d) noexcept {
-    const model::Vec<N> f_hat = regressor_.f(adaptive_.p_hat);  // (28)
-    const model::Vec<N> sliding =
-        control::SlidingTerm<N>(adaptive_.sigma_0, adaptive_.sigma_1, gains_.sliding.scale, d.s,
-                                control::Saturate(d.s, gains_.sliding.phi));  // (36)
-    if (d.source == ForceSource::kKnown) {
-      const model::Vec<N> JtF_d = d.normal.J_n.transpose() * d.force.f_d;
-      return control::KnownForceTorque<N>(arm_.rotor_inertia, d.aux.v_dot, f_hat, JtF_d, gains_.K_d, d.s) +
-             sliding;  // (31)
-    }
-    model::Vec<N> tau =
-        control::UnknownForceTorque<N>(arm_.rotor_inertia, d.aux.v_dot, f_hat, gains_.K_d, d.s, sliding);
-    if (subtract_observer_) tau -= observer_.r();
-    return tau;
+  /// v, v̇, s: where the law shall take the arm from here (22)-(25), (30).
+  void Aim(Decision<N>& d, const Measurement<N>& measured) noexcept {
+    d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
+    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
+    if (d.force.active && law_.force_loop)
+      control::ReplaceNormal<N>(d.normal, d.force.z, d.force.z_dot, d.aux);
+    d.s = control::SlidingError<N>(d.aux.v, measured.theta_dot);
+    if (!law_.acceleration) return;
+    d.aux.v = measured.theta_dot;
+    d.aux.v_dot =
+        control::ComputedAcceleration<N>(d.desired, kappa_rate_, gains_.Lambda, d.aux.e, measured.theta_dot);
   }
 
-  void Learn(const Decision<N>& d) noexcept {
-    const bool known = d.source == ForceSource::kKnown;
-    adaptive_.UpdateParameters(gains_, known ? gains_.Gamma_known : gains_.Gamma_unknown, arm_, regressor_.Y,
-                               d.s, T_);
-    adaptive_.UpdateSliding(gains_, d.s, T_);
+  /// r where it may be subtracted: free motion. An arm that presses would cancel its own force.
+  model::Vec<N> Subtracted(const Decision<N>& d) const noexcept {
+    const bool free = gains_.subtract_observer && d.source == ForceSource::kUnknown;
+    return free ? observer_.r() : model::Vec<N>(model::Vec<N>::Zero());
+  }
+
+  /// κ = K_d / (M̂ + J_m)_ii at the start of the path; set-up only.
+  model::Vec<N> RateOf(const reference::JointPath<N>& path) {
+    model::ForwardKinematics<N, P>(arm_, path.At(0.0).theta_d, model::Vec<N>::Zero(), kin_);
+    const model::Mat<N, N> M = model::MassMatrix<N>(nominal_, kin_);
+    return gains_.K_d.cwiseQuotient(M.diagonal() + arm_.rotor_inertia);
   }
 
   model::MomentumModel<N> Momentum(const Measurement<N>& measured) noexcept {
@@ -163,31 +181,38 @@ class Separated {
   void Observe(const Measurement<N>& measured, const model::Vec<N>& tau_before) noexcept {
     model::MomentumModel<N> m = model::GeneralisedMomentum<N>(nominal_, kin_, arm_.gravity);
     m.momentum += arm_.rotor_inertia.cwiseProduct(measured.theta_dot);
-    observer_.Update(m.momentum,
-                     tau_before + m.free_rate - nominal_viscous_.cwiseProduct(measured.theta_dot));  // (47)
+    const model::Vec<N> friction =
+        nominal_viscous_.cwiseProduct(measured.theta_dot) +
+        control::CoulombTorque<N>(adaptive_.kappa_hat, measured.theta_dot, gains_.friction_speed);
+    observer_.Update(m.momentum, tau_before + m.free_rate - friction);  // (47)
   }
 
-  static constexpr int kLossCycles = 3;
+  static constexpr double kCollisionShare = 0.15;  // of the torque limit
 
   const model::ArmModel<N, P>& arm_;
   Gains<N, P> gains_;
+  const Law<N, P>& law_;
   reference::JointPath<N> path_;
   Eigen::Vector3d normal_;
   bool wall_present_;
-  ForceConfig::Source source_config_;
   bool compensate_;
   double T_;
+  SourceSelector source_;
   ForceMode force_;
-  ForceTare tare_;
+  NormalForce normal_force_;
+  NodalReference<N> nodal_;
   AdaptiveState<N, P> adaptive_;
   control::MomentumObserver<N> observer_;
-  bool subtract_observer_;
+  CollisionDetector<N> collision_;
   model::Bodies<N> nominal_;
   model::Vec<N> nominal_viscous_;
 
   model::Kinematics<N> kin_, plan_kin_;
   model::Regressor<N, P> regressor_;
   Decision<N> decision_;
+  model::Vec<N> offset_ = model::Vec<N>::Zero();
+  model::Vec<P> p_free_ = model::Vec<P>::Zero();  // p̂ when last free
+  model::Vec<N> kappa_rate_;                      // κ of computed torque, 1/s
 };
 
 }  // namespace reed::strategy

@@ -1,0 +1,61 @@
+// How stiff the wall is as the motors feel it, and the force gain that fits. RT: safe.
+//
+//   k̂_e = −Σ f' x' / Σ x'²               (51)     N/m; x' , f': normal tip position from motor angles and
+//   normal
+//                                                 force, both without what changes slower than kWashout_s
+//   k_p  = ω_f / k̂_e, within bounds       (52)     m/(s·N): the loop k_p k̂_e then has the same speed on every
+//   wall
+//
+// The arm's own 7-12 kN/m are in series with the wall and part of k̂_e: it is what the loop closes over. Sums
+// are forgotten with kMemory_s of motion; readings that moved less than kLeastMotion_m teach nothing.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace reed::strategy {
+
+class WallStiffness {
+ public:
+  /// start: k̂_e until there is evidence, N/m. T in s.
+  WallStiffness(double start, double T) noexcept
+      : start_(start), washout_(-std::expm1(-T / kWashout_s)), memory_(std::exp(-T / kMemory_s)) {
+    Reset();
+  }
+
+  void Reset() noexcept {
+    xx_ = kPrior_m * kPrior_m;
+    fx_ = start_ * xx_;
+    touched_ = false;
+  }
+
+  /// f: normal force, N. x: normal position of the tip by motor angles, m; falls as the arm presses.
+  double Step(double f, double x) noexcept {
+    if (!touched_) {
+      f_slow_ = f;
+      x_slow_ = x;
+      touched_ = true;
+    }
+    f_slow_ += washout_ * (f - f_slow_);
+    x_slow_ += washout_ * (x - x_slow_);
+    const double df = f - f_slow_, dx = x - x_slow_;
+    if (std::abs(dx) > kLeastMotion_m) {
+      xx_ = memory_ * xx_ + dx * dx;
+      fx_ = memory_ * fx_ - df * dx;
+    }
+    return value();
+  }
+
+  double value() const noexcept { return std::clamp(fx_ / xx_, kSoftest, kStiffest); }
+
+ private:
+  static constexpr double kWashout_s = 0.15, kMemory_s = 0.5;
+  static constexpr double kLeastMotion_m = 50e-6;  // twenty encoder steps
+  static constexpr double kPrior_m = 1e-4;         // the start counts as one reading of this motion
+  static constexpr double kSoftest = 300.0, kStiffest = 100e3;  // N/m
+  double start_, washout_, memory_;
+  double xx_ = 0.0, fx_ = 0.0, f_slow_ = 0.0, x_slow_ = 0.0;
+  bool touched_ = false;
+};
+
+}  // namespace reed::strategy
