@@ -5,12 +5,13 @@ import tempfile
 import time
 from pathlib import Path
 
-from reed_tools import bus_choice, hil, progress, result_table, scenario, vm
+from reed_tools import bus_choice, hil, progress, result_table, scenario, trace_events, vm
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import ROOT, program
 from reed_tools.telemetry_log import merge
 
-USAGE = 2
+STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
+OWN_FILES = ("firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump", "summary.json", "report.html")
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
@@ -29,6 +30,8 @@ def add_arguments(parser) -> None:
                         help="wall: paced by the clock; lockstep: as fast as possible, bit-reproducible")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
                         help="override any number of the scenario or arm; repeatable")
+    parser.add_argument("--trace", action="store_true",
+                        help="also write trace.json, for ui.perfetto.dev: a span per phase, instants for what happened")
 
 
 def run(arguments) -> int:
@@ -46,7 +49,7 @@ def run(arguments) -> int:
                         bus, arguments.clock, str(folder), most_cycles(effective))
         with progress.shown(effective["scenario"]["name"], duration_s) as on_progress:
             outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
-    return conclude(folder, plan, outcome)
+    return conclude(folder, plan, outcome, arguments.trace)
 
 
 def most_cycles(effective: dict) -> int:
@@ -57,24 +60,28 @@ def make_folder(arguments, name: str) -> Path:
     folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{name}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for stale in (*folder.glob("*.lcmlog"), *folder.glob("*.png"), folder / "summary.json", folder / "report.html"):
-            stale.unlink(missing_ok=True)
+        for stale in OWN_FILES:
+            (folder / stale).unlink(missing_ok=True)
     except OSError as error:
         raise UsageError(f"--out {folder}: {error.strerror}") from None
     return folder.resolve()
 
 
-def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome) -> int:
+def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = False) -> int:
     """Keeps what was recorded first, then tells what happened."""
     from reed_tools.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
 
     merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
+    if trace:
+        trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
     complaint = what_failed(plan, outcome)
     if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
         raise UsageError(complaint)
     summary = evaluate(folder)
     if summary["cycles"]:
         result_table.show(summary)
+    if outcome.firmware_status == STOPPED:
+        print(last_line(plan, "firmware"))
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")
@@ -88,7 +95,7 @@ def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
     if outcome.stopped_because:
         return f"stopped, because {outcome.stopped_because}; reed_firmware: {last_line(plan, 'firmware')}"
     for name, status in (("plant", outcome.plant_status), ("firmware", outcome.firmware_status)):
-        if status:
+        if status and not (name == "firmware" and status == STOPPED):
             how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
             return f"{'reed_plant_sim' if name == 'plant' else 'reed_firmware'} {how}: {last_line(plan, name)}"
     return None

@@ -1,0 +1,31 @@
+"""The trace of a run in the trace event format: phases end to end, instants for misses, late frames and events."""
+
+from types import SimpleNamespace as Message
+
+from reed_tools import trace_events
+
+
+def timing(cycle: int, missed: int = 0) -> tuple:
+    return "REED_TIMING", Message(utime=1_000_000 + 1000 * cycle, cycle=cycle, wake_ns=5_000, rx_ns=100_000, compute_ns=20_000,
+                                  tx_ns=8_000, cycle_ns=128_000, missed=missed)
+
+
+def test_phases_follow_each_other_without_gap_or_overlap():
+    events, cycles = trace_events.trace([timing(0), timing(1)])
+    spans = [event for event in events if event["ph"] == "X" and event["args"]["cycle"] == 1]
+    assert cycles == 2
+    assert [span["name"] for span in spans] == ["wake", "receive", "compute", "transmit"]
+    for before, after in zip(spans, spans[1:]):
+        assert abs(before["ts"] + before["dur"] - after["ts"]) < 1e-6
+    assert spans[1]["ts"] == 1000.0
+
+
+def test_misses_late_frames_and_mode_changes_are_instants():
+    mode = "REED_EVENT", Message(utime=1_000_500, cycle=0, mode=2, code=1, joint=-1, value=3.0, text="mode changed")
+    bus = "REED_BUS", Message(utime=1_002_000, cycle=2, late=4)
+    events, _ = trace_events.trace([timing(0), mode, timing(1, missed=3), bus, timing(2, missed=3)])
+    instants = {event["name"]: event["args"] for event in events if event["ph"] == "i"}
+    assert instants["missed"] == {"cycles": 3}
+    assert instants["late frames"] == {"frames": 4}
+    assert instants["mode changed"]["mode"] == 2
+    assert len([event for event in events if event["name"] == "missed"]) == 1
