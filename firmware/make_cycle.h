@@ -3,23 +3,28 @@
 #pragma once
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "firmware/cycle.h"
 
 namespace reed {
 
-/// Parameter capacities the program is built for: unused columns of Y are zero and cost time, so small arms
-/// get a small one.
-/// Seven and the known part fill whole vector registers.
-inline constexpr int kFewParameters = 7;
-inline constexpr int kManyParameters = kMaxParameters;
+/// Parameters the loop has room for. Unused columns of Y are zero and cost time, and every capacity costs a
+/// translation unit that compiles for half a minute, so each number of joints gets one: 7 and the known part
+/// fill two AVX registers.
+template <int N>
+inline constexpr int kLoopParameters = N <= 5 ? 7 : kMaxParameters;
 
 template <int N>
 std::unique_ptr<CycleBase> MakeCycleFor(const Scenario& scenario, bus::Transport& transport,
                                         bool start_wanted) {
-  if (scenario.arm.num_parameters() <= kFewParameters)
-    return std::make_unique<Cycle<N, kFewParameters>>(scenario, transport, start_wanted);
-  return std::make_unique<Cycle<N, kManyParameters>>(scenario, transport, start_wanted);
+  constexpr int P = kLoopParameters<N>;
+  if (scenario.arm.num_parameters() > P)
+    throw std::runtime_error("arm.param_names: " + std::to_string(scenario.arm.num_parameters()) +
+                             " parameters; the loop of " + std::to_string(N) + " joints allows 0 ... " +
+                             std::to_string(P));
+  return std::make_unique<Cycle<N, P>>(scenario, transport, start_wanted);
 }
 
 }  // namespace reed
