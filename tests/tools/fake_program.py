@@ -17,6 +17,7 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     for option in ("--config", "--bus", "--clock", "--log", "--candump"):
         parser.add_argument(option)
+    parser.add_argument("--enable", action="store_true")
     options = parser.parse_args()
     stopped = []
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -33,6 +33,8 @@ def decode_all(message_class, type_name: str, payloads: list[bytes]) -> dict[str
     """One array per field, one row per message, in native byte order."""
     if not payloads:
         return {name: np.array([]) for name in message_class.__slots__}
+    if payloads[0][:8] != message_class._get_packed_fingerprint():
+        raise RunError(f"{type_name}: the log was written with another version of this message than lcmtypes/{type_name}.lcm")
     layout = record_type(type_name, message_class.decode(payloads[0]))
     odd = next((data for data in payloads if len(data) != layout.itemsize or data[:8] != payloads[0][:8]), None)
     if odd is not None:

@@ -100,7 +100,7 @@ def tip_error(signals: Signals):
 
 def force(signals: Signals):
     figure, (axis, error) = panels(2, 4.6)
-    axis.plot(signals.t, signals.force_measured, color="#56B4E9", linewidth=0.7, label="measured (wrist)")
+    axis.plot(signals.t, signals.force_measured, color="#56B4E9", linewidth=2.2, label="measured (wrist)")
     axis.plot(signals.t, signals.force_true, color="#D55E00", label="true")
     axis.plot(signals.t, signals.force_desired, color="black", linestyle="--", label="desired")
     axis.set_title("Normal force of the wall on the robot", loc="left")
@@ -113,14 +113,17 @@ def force(signals: Signals):
 
 
 def torque(signals: Signals, limits: list[float]):
-    figure, axes = panels(signals.dof, 1.1 * signals.dof + 0.8)
+    figure, axes = panels(signals.dof, 1.2 * signals.dof + 0.8)
+    set_margins(figure, top_in=0.6, hspace=0.34)
     for j, axis in enumerate(axes):
+        used = float(np.abs(signals.torque[:, j]).max()) / limits[j]
         axis.plot(signals.t, signals.torque[:, j], color=COLOURS[j % len(COLOURS)])
-        for sign in (-1, 1):
-            axis.axhline(sign * limits[j], color="0.3", linestyle="--", linewidth=0.8)
-        axis.set_ylim(-1.15 * limits[j], 1.15 * limits[j])
+        if used > 0.5:  # a limit far away would flatten the curve
+            for sign in (-1, 1):
+                axis.axhline(sign * limits[j], color="0.3", linestyle="--", linewidth=0.8)
+        axis.set_title(f"limit ±{limits[j]:g} N·m, largest {100 * used:.0f} % of it", loc="right", fontsize=8)
         axis.set_ylabel(f"joint {j + 1}\n[N·m]")
-    axes[0].set_title("Commanded torque, dashed: the drives' limits", loc="left")
+    figure.suptitle("Commanded torque; dashed where it comes near: the drive's limit", x=0.01, ha="left", fontsize=10)
     axes[-1].set_xlabel(TIME)
     return figure
 

@@ -17,9 +17,10 @@ VM = ROOT / "tools" / "vm" / "vm"
 BUS = "socketcan:vcan0"
 
 
-def command(inner: list[str], time_limit_s: float | None = None) -> list[str]:
+def command(inner: list[str], time_limit_s: float | None = None, realtime: bool = False) -> list[str]:
+    """realtime: the whole VM above the machine's ordinary load, for what is paced by the clock."""
     limit = ["--time-limit", str(time_limit_s)] if time_limit_s else []
-    return [str(VM), *limit, "--", *inner]
+    return [str(VM), *limit, *(["--realtime"] if realtime else []), "--", *inner]
 
 
 def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
@@ -31,8 +32,8 @@ def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
         json.dump(asdict(inner), file)
         file.flush()
         environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
-        process = subprocess.Popen(command([sys.executable, "-m", "reed_tools.hil", file.name]), stdout=subprocess.PIPE,
-                                   text=True, env=environment, start_new_session=True)
+        inside = command([sys.executable, "-m", "reed_tools.hil", file.name], realtime=plan.clock == "wall")
+        process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
         interrupted = follow(process, on_progress)
     if not outcome_file.exists():
         raise RunError(f"the VM ended with status {process.returncode} before the run did")
