@@ -17,6 +17,7 @@ namespace {
 constexpr double kHoldingTorqueOverLimit = 3.0;  // of a brake, over the drive's torque limit
 constexpr double kHoldingTorque = 200.0;         // N·m, where the arm file states no torque limit
 constexpr double kSameLength = 1e-6;             // m, between a section and its Denavit-Hartenberg row
+constexpr double kNothing = 1e-14;               // of a mount that is an identity but for round-off
 constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
 
 void Require(bool condition, const ArmDescription& arm, const std::string& what) {
@@ -132,6 +133,10 @@ class Builder {
             std::to_string(arm_.sections.size()) + " sections are given, its members are " +
                 std::to_string(section_));
     chain_.tool = output_.Inverse() * Shift(arm_.tool_offset_m);
+    for (Element& element : chain_.elements) {
+      element.mount_turns = !element.mount.R.isIdentity(kNothing);
+      element.mount_shifts = !element.mount.p.isZero(kNothing);
+    }
     return std::move(chain_);
   }
 

@@ -30,6 +30,7 @@ struct Element {
   int joint = -1;   // index, or -1
   int member = -1;  // index, or -1
   RigidBody body;   // fixed to the output frame (the turned frame, the member's tip section), in its axes
+  bool mount_turns = false, mount_shifts = false;  // whether the mount is more than an identity
 };
 
 /// What stands between the motor torque and the joint.

@@ -10,13 +10,18 @@
 namespace reed::plant {
 
 struct BeamElasticity {
-  ElasticMat K = ElasticMat::Zero();  // ∂²E_p2/∂e²: EI ∫N''N''ᵀ dl in both planes, EA/L, GJ/L
-  double beta = 0.0;                  // s
+  // K = ∂²E_p2/∂e². The shapes make it nearly diagonal: in each plane only tip deflection and tip slope are
+  // coupled.
+  BendingVec bending = BendingVec::Zero();  // diagonal of EI ∫N''N''ᵀ dl
+  double bending_coupling = 0.0;            // its entry (0, 1)
+  double axial = 0.0, torsion = 0.0;        // EA/L, GJ/L
+  double beta = 0.0;                        // s
 
   BeamElasticity() = default;
   BeamElasticity(double length, double EI, double EA, double GJ);
 
-  double Energy(const ElasticVec& e) const { return 0.5 * e.dot(K * e); }
+  ElasticVec Force(const ElasticVec& e) const;  // K e
+  double Energy(const ElasticVec& e) const { return 0.5 * e.dot(Force(e)); }
 };
 
 }  // namespace reed::plant

@@ -28,7 +28,7 @@ BeamInertia::BeamInertia(double length, double density, double polar, const Rela
   M_.block<kBending, kBending>(kB, kB) = NN_ + relative.density * integrals.NN;
   M_(kU, kU) = UU_ + relative.density * length / 3.0;
   M_(kTwist, kTwist) = (polar_ + relative.polar) * length / 3.0;
-  M_(kTwist, kAngular) = M_(kAngular, kTwist) = polar_ * length / 2.0;
+  M_(kTwist, kAngular) = polar_ * length / 2.0;
   M_.block<3, 3>(kLinear, kLinear) = m_ * Matrix3d::Identity();
   M_.block<kBending, 1>(kA, kLinear + 1) = N_;
   M_.block<kBending, 1>(kB, kLinear + 2) = N_;
@@ -83,7 +83,6 @@ void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   M_.block<3, 3>(kAngular, kLinear) = Cross(h_);
   M_.block<3, 3>(kAngular, kAngular) = I_;
   M_(kAngular, kAngular) += polar_ * length_;
-  M_.block<6, kElastic>(kLinear, 0) = M_.block<kElastic, 6>(0, kLinear).transpose();
 }
 
 BlockVec BeamInertia::Bias(const Motion& base) const {
@@ -116,7 +115,7 @@ BlockVec BeamInertia::Bias(const Motion& base) const {
 double BeamInertia::KineticEnergy(const Motion& base) const {
   BlockVec rate;
   rate << e_dot_, base.velocity, base.omega;
-  return 0.5 * rate.dot(M_ * rate);
+  return 0.5 * rate.dot(M_.selfadjointView<Eigen::Upper>() * rate);
 }
 
 RigidBody BeamInertia::AsRigidBody() const {

@@ -12,12 +12,6 @@
 
 namespace reed::plant {
 
-/// Coordinates of an element together with the rate of its base: [e | linear | angular].
-inline constexpr int kBlock = kElastic + 6;
-inline constexpr int kLinear = kElastic, kAngular = kElastic + 3;
-using BlockVec = Eigen::Matrix<double, kBlock, 1>;
-using BlockMat = Eigen::Matrix<double, kBlock, kBlock, Eigen::RowMajor>;
-
 /// Material that counts only for motion relative to the element's base, 1/2 e'ᵀ M_rel e': what the link's
 /// description has no mass for (a first link of which only the inertia about its axis is stated) still moves
 /// when the member bends.
@@ -34,7 +28,7 @@ class BeamInertia {
 
   void Deform(const ElasticVec& e, const ElasticVec& e_dot);
 
-  /// ∂²E_k/∂(e', V, ω)².
+  /// ∂²E_k/∂(e', V, ω)², upper triangle only left of the base's columns.
   const BlockMat& mass_matrix() const { return M_; }
 
   /// Generalised forces [e | force | moment] that velocities and bias accelerations call for.

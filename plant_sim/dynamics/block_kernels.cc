@@ -1,5 +1,7 @@
 #include "plant_sim/dynamics/block_kernels.h"
 
+#include <cstring>
+
 // A sanitizer's run time is not ready yet when the loader picks a copy.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
@@ -11,41 +13,68 @@
 namespace reed::plant {
 
 namespace {
+
 constexpr int kN = kBlockSize;
-constexpr int FirstColumn(int row) { return row & ~3; }  // of the block of four that holds the diagonal
+constexpr int kLanes = 4;
+constexpr int kGroups = kN / kLanes;  // of columns
+
+/// Four neighbouring columns; unaligned in memory.
+typedef double Group
+    __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+inline const Group& At(const double* row, int group) { return reinterpret_cast<const Group*>(row)[group]; }
+inline Group& At(double* row, int group) { return reinterpret_cast<Group*>(row)[group]; }
+
 }  // namespace
 
 REED_CLONES void AddCongruence(double* __restrict M, const double* __restrict X, const double* __restrict I) {
-  double IX[6 * kN];
-  for (int i = 0; i < 6; ++i)
-    for (int c = 0; c < kN; ++c) {
-      double sum = 0.0;
-      for (int j = 0; j < 6; ++j) sum += I[6 * i + j] * X[kN * j + c];
-      IX[kN * i + c] = sum;
+  for (int g = 0; g < kGroups; ++g) {
+    Group IX[6];
+    for (int i = 0; i < 6; ++i) {
+      IX[i] = I[6 * i] * At(X, g);
+      for (int j = 1; j < 6; ++j) IX[i] += I[6 * i + j] * At(X + kN * j, g);
     }
-  for (int r = 0; r < kN; ++r)
-    for (int b = FirstColumn(r); b < kN; b += 4)
-      for (int c = b; c < b + 4; ++c) {
-        double sum = M[kN * r + c];
-        for (int j = 0; j < 6; ++j) sum += X[kN * j + r] * IX[kN * j + c];
-        M[kN * r + c] = sum;
-      }
+    for (int r = 0; r < kLanes * (g + 1); ++r) {  // the diagonal lies in this group or to its left
+      Group sum = At(M + kN * r, g);
+      for (int j = 0; j < 6; ++j) sum += X[kN * j + r] * IX[j];
+      At(M + kN * r, g) = sum;
+    }
+  }
 }
 
-REED_CLONES void EliminateLeading(double* __restrict M, double* __restrict p, double* __restrict inverse,
-                                  int pivots) {
-  for (int k = 0; k < pivots; ++k) {
-    double source[kN];
-    for (int c = 0; c < kN; ++c) source[c] = M[kN * k + c];
+REED_CLONES void EliminateLeading(double* __restrict M, double* __restrict p, double* __restrict inverse) {
+  double q[kN];
+  std::memcpy(q, p, sizeof q);
+  for (int k = 0; k < kPivots; ++k) {
+    const double* const source = M + kN * k;
     const double inv = 1.0 / source[k];
     inverse[k] = inv;
-    const double p_k = p[k];
-    for (int r = k + 1; r < kN; ++r) {
-      const double factor = source[r] * inv;  // by symmetry the entry below the pivot
-      for (int b = FirstColumn(r); b < kN; b += 4)
-        for (int c = b; c < b + 4; ++c) M[kN * r + c] -= factor * source[c];
-      p[r] -= factor * p_k;
+    p[k] = q[k];
+    const double q_scaled = q[k] * inv;
+    Group scaled[kGroups];
+    for (int g = 0; g < kGroups; ++g) {
+      scaled[g] = inv * At(source, g);
+      At(q, g) -= q_scaled * At(source, g);  // entries up to k are spent
     }
+    // By symmetry the entry below the pivot in row r is source[r].
+#pragma GCC unroll 4
+    for (int row_group = 0; row_group < kGroups; ++row_group) {
+      const int first = row_group * kLanes;
+      for (int r = k < first ? first : k + 1; r < first + kLanes; ++r)
+#pragma GCC unroll 4
+        for (int g = row_group; g < kGroups; ++g) At(M + kN * r, g) -= source[r] * scaled[g];
+    }
+  }
+  std::memcpy(p + kPivots, q + kPivots, (kN - kPivots) * sizeof(double));
+}
+
+REED_CLONES void BackSubstitute(const double* __restrict M, const double* __restrict p,
+                                const double* __restrict inverse, double* __restrict k) {
+  for (int r = 0; r < kPivots; ++r) k[r] = 0.0;  // so that whole groups can be summed
+  for (int r = kPivots - 1; r >= 0; --r) {
+    Group sum = At(M + kN * r, kGroups - 1) * At(k, kGroups - 1);
+    for (int g = r / kLanes; g < kGroups - 1; ++g) sum += At(M + kN * r, g) * At(k, g);
+    k[r] = -(p[r] + ((sum[0] + sum[1]) + (sum[2] + sum[3]))) * inverse[r];
   }
 }
 

@@ -28,7 +28,7 @@ void Add(MatrixXd& M, const Jacobian& J, const Inertia6& inertia) {
 
 Jacobian AtSection(const Jacobian& base, const Section& section, Eigen::Index elastic) {
   Jacobian J = Carried(base, {Matrix3d::Identity(), section.pose().p});
-  J.middleCols<kElastic>(elastic) += section.jacobian();
+  J.middleCols<kElastic>(elastic) += section.transfer().leftCols<kElastic>();
   return Carried(J, {section.pose().R, Vector3d::Zero()});
 }
 
@@ -51,7 +51,7 @@ MatrixXd EquationsOfMotion::MassMatrix() const {
       MatrixXd block = MatrixXd::Zero(kBlock, size());
       block.block<kElastic, kElastic>(0, at).setIdentity();
       block.bottomRows<6>() = base;
-      M += block.transpose() * work.inertia.mass_matrix() * block;
+      M += block.transpose() * (work.inertia.mass_matrix().selfadjointView<Eigen::Upper>() * block);
       if (beam.body_at >= 0.0) Add(M, AtSection(base, work.body_section, at), beam.body.AtOrigin());
       J = AtSection(base, work.tip, at);
     }
@@ -84,8 +84,9 @@ MatrixXd EquationsOfMotion::StiffnessMatrix() const {
     K(i, n_ + i) = K(n_ + i, i) = -k;
   }
   for (int m = 0; m < static_cast<int>(members_.size()); ++m)
-    K.block<kElastic, kElastic>(ElasticIndex(m), ElasticIndex(m)) =
-        chain_.members[static_cast<std::size_t>(m)].elasticity.K;
+    for (int e = 0; e < kElastic; ++e)
+      K.block<kElastic, 1>(ElasticIndex(m), ElasticIndex(m) + e) =
+          chain_.members[static_cast<std::size_t>(m)].elasticity.Force(ElasticVec::Unit(e));
   return K;
 }
 

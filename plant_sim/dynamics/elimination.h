@@ -1,11 +1,13 @@
 // One element's share of the sweep: the quadratic form in [e | base rate] and the elimination of e. RT: safe.
 #pragma once
 
+#include "plant_sim/dynamics/beam_elasticity.h"
 #include "plant_sim/dynamics/beam_inertia.h"
 
 namespace reed::plant {
 
-/// Equations  M [k_e; k_base] + p = 0  of one element, its own and everything it carries.
+/// Equations  M [k_e; k_base] + p = 0  of one element, its own and everything it carries. Of M only the upper
+/// triangle is kept up.
 class ElementBlock {
  public:
   void Set(const BlockMat& M, const BlockVec& p) {
@@ -17,17 +19,14 @@ class ElementBlock {
   /// origin.
   void Carry(const Section& section, const Inertia6& inertia, const Wrench& force);
 
-  /// Stiffness and damping of the element's own coordinates, and the force they exert.
-  void AddElastic(const ElasticMat& M, const ElasticVec& force) {
-    M_.topLeftCorner<kElastic, kElastic>() += M;
-    p_.head<kElastic>() -= force;
-  }
+  /// weight * K, and the force K * reach.
+  void AddElastic(const BeamElasticity& elasticity, double weight, const ElasticVec& reach);
 
   /// Eliminates e. What is left is what the carrier feels.
   void Eliminate(Inertia6& inertia, Wrench& force);
 
-  /// k_e for a given rate of the base; after Eliminate.
-  void BackSubstitute(const Rate& base, Eigen::Ref<Eigen::VectorXd> k_e) const;
+  /// [k_e; k_base] for a given rate of the base; after Eliminate.
+  BlockVec BackSubstitute(const Rate& base) const;
 
  private:
   BlockMat M_;

@@ -42,7 +42,10 @@ EquationsOfMotion::EquationsOfMotion(const ArmChain& chain, const Wall& wall)
 void EquationsOfMotion::SetPayload(double mass_kg) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].body = chain_.elements[i].body;
   nodes_.back().body = Join(nodes_.back().body, {mass_kg, chain_.tool.p, Matrix3d::Zero()});
-  for (Node& node : nodes_) node.body_inertia = node.body.AtOrigin();
+  for (Node& node : nodes_) {
+    node.body_inertia = node.body.AtOrigin();
+    node.loaded = !node.body.empty();
+  }
 }
 
 void EquationsOfMotion::SetState(const VectorXd& x, const VectorXd& x_dot) {
@@ -138,29 +141,25 @@ void EquationsOfMotion::EliminateJoint(int joint, const Load& load, const Implic
   p.moment += ua * work.rest;
 }
 
-void EquationsOfMotion::EliminateMember(int member, const Implicit& implicit, const Placement& mount,
-                                        Inertia6& I, Wrench& p) {
+void EquationsOfMotion::EliminateMember(int member, const Implicit& implicit, Inertia6& I, Wrench& p) {
   MemberWork& work = members_[static_cast<std::size_t>(member)];
   const Member& beam = chain_.members[static_cast<std::size_t>(member)];
   const Eigen::Index at = ElasticIndex(member);
 
   work.block.Set(work.inertia.mass_matrix(), work.inertia.Bias(work.base));
-  const auto carry = [&work](const Section& section, const Inertia6& inertia, const Wrench& force) {
-    const Placement turn{section.pose().R, Vector3d::Zero()};
-    work.block.Carry(section, InParent(turn, inertia), InParent(turn, force));
-  };
-  carry(work.tip, I, p);
-  if (beam.body_at >= 0.0)
-    carry(work.body_section, beam.body.AtOrigin(), beam.body.Bias(work.body_section.CarriedBy(work.base)));
+  const Matrix3d& Q = work.tip.pose().R;
+  work.block.Carry(work.tip, Turned(Q, I), {Q * p.force, Q * p.moment});
+  if (beam.body_at >= 0.0) {
+    const Placement turn{work.body_section.pose().R, Vector3d::Zero()};
+    const Wrench force = beam.body.Bias(work.body_section.CarriedBy(work.base));
+    work.block.Carry(work.body_section, InParent(turn, beam.body).AtOrigin(), InParent(turn, force));
+  }
 
-  const ElasticMat& K = beam.elasticity.K;
   const double beta = beam.elasticity.beta;
   const ElasticVec reach =
-      -work.e - implicit.y_k.segment<kElastic>(at) + beta * (implicit.y_d.segment<kElastic>(at) - work.e_dot);
-  work.block.AddElastic((implicit.c_k + beta * implicit.c_d) * K, K * reach);
+      beta * (implicit.y_d.segment<kElastic>(at) - work.e_dot) - work.e - implicit.y_k.segment<kElastic>(at);
+  work.block.AddElastic(beam.elasticity, implicit.c_k + beta * implicit.c_d, reach);
   work.block.Eliminate(I, p);
-  I = InParent(mount, I);
-  p = InParent(mount, p);
 }
 
 void EquationsOfMotion::Solve(const Load& load, const Implicit& implicit, VectorXd& k) {
@@ -177,17 +176,20 @@ void EquationsOfMotion::Solve(const Load& load, const Implicit& implicit, Vector
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // tip to base
     const Node& node = nodes_[i];
     const Element& element = chain_.elements[i];
-    const Wrench own = node.body.Bias(node.motion);
-    I += node.body_inertia;
-    p.force += own.force;
-    p.moment += own.moment;
-    if (element.joint >= 0) {
-      EliminateJoint(element.joint, load, implicit, I, p);
-      I = InParent(node.pose, I);
-      p = InParent(node.pose, p);
-    } else {
-      EliminateMember(element.member, implicit, element.mount, I, p);
+    if (node.loaded) {
+      const Wrench own = node.body.Bias(node.motion);
+      I += node.body_inertia;
+      p.force += own.force;
+      p.moment += own.moment;
     }
+    if (element.joint >= 0)
+      EliminateJoint(element.joint, load, implicit, I, p);
+    else
+      EliminateMember(element.member, implicit, I, p);
+    const Placement& pose = element.joint >= 0 ? node.pose : element.mount;
+    if (element.joint >= 0 || element.mount_turns) I = Turned(pose.R, I);
+    if (element.mount_shifts) I = Shifted(pose.p, I);
+    p = InParent(pose, p);
   }
 
   Rate carrier;
@@ -205,9 +207,9 @@ void EquationsOfMotion::Solve(const Load& load, const Implicit& implicit, Vector
     } else {
       const MemberWork& work = members_[static_cast<std::size_t>(element.member)];
       const Rate base = Carried(carrier, element.mount);
-      auto ke = k.segment<kElastic>(ElasticIndex(element.member));
-      work.block.BackSubstitute(base, ke);
-      carrier = work.tip.CarriedBy(base, ke);
+      const BlockVec rate = work.block.BackSubstitute(base);
+      k.segment<kElastic>(ElasticIndex(element.member)) = rate.head<kElastic>();
+      carrier = work.tip.CarriedBy(rate);
     }
   }
   tool_rate_ = R * (carrier.linear + carrier.angular.cross(chain_.tool.p));

@@ -84,6 +84,7 @@ class EquationsOfMotion {
     Motion motion;    // of the output frame
     RigidBody body;   // payload included
     Inertia6 body_inertia;
+    bool loaded = false;  // whether there is a body at all
   };
   struct JointWork {  // eliminated: the motor angle, then the joint angle
     Eigen::Vector3d U_linear, U_angular;
@@ -102,7 +103,7 @@ class EquationsOfMotion {
   void MoveMember(const Element& element, const Motion& carrier, Node& node);
   void EliminateMotor(int joint, const Load& load, const Implicit& implicit, double& torque, double& inertia);
   void EliminateJoint(int joint, const Load& load, const Implicit& implicit, Inertia6& I, Wrench& p);
-  void EliminateMember(int member, const Implicit& implicit, const Placement& mount, Inertia6& I, Wrench& p);
+  void EliminateMember(int member, const Implicit& implicit, Inertia6& I, Wrench& p);
   Eigen::Index ElasticIndex(int member) const { return 2 * n_ + kElastic * member; }
 
   const ArmChain& chain_;

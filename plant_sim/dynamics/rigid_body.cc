@@ -38,14 +38,18 @@ RigidBody InParent(const Placement& placement, const RigidBody& body) {
   return {body.mass, placement * body.com, placement.R * body.inertia * placement.R.transpose()};
 }
 
+Inertia6 Turned(const Matrix3d& R, const Inertia6& child) {
+  return {R * child.A * R.transpose(), R * child.B * R.transpose(), R * child.D * R.transpose()};
+}
+
+Inertia6 Shifted(const Vector3d& p, const Inertia6& child) {
+  const Matrix3d px = Cross(p);
+  const Matrix3d B = child.B - child.A * px;
+  return {child.A, B, child.D + px * B - child.B.transpose() * px};
+}
+
 Inertia6 InParent(const Placement& placement, const Inertia6& child) {
-  const Matrix3d& R = placement.R;
-  const Matrix3d p = Cross(placement.p);
-  const Matrix3d A = R * child.A * R.transpose();
-  const Matrix3d B0 = R * child.B * R.transpose();
-  const Matrix3d B = B0 - A * p;
-  const Matrix3d D = R * child.D * R.transpose() + p * B - B0.transpose() * p;
-  return {A, B, D};
+  return Shifted(placement.p, Turned(placement.R, child));
 }
 
 Wrench InParent(const Placement& placement, const Wrench& child) {

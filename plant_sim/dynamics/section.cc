@@ -10,6 +10,11 @@ Section::Section(double l, double length) : l_(l), share_(l / length) {
   N_ = shapes.N;
   slope_ = shapes.slope;
   S_ = shapes.S;
+  X_.setZero();
+  X_(0, kU) = share_;
+  X_.block<1, kBending>(1, kA) = N_.transpose();
+  X_.block<1, kBending>(2, kB) = N_.transpose();
+  X_.rightCols<6>().setIdentity();
   Deform(ElasticVec::Zero(), ElasticVec::Zero());
 }
 
@@ -47,15 +52,12 @@ void Section::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   bias_angular_ =
       g_dot_over_g * bend_omega + h * phi_dot * bend_omega.cross(tangent) + h_dot * phi_dot * tangent;
 
-  J_.setZero();
-  J_.block<1, kBending>(0, kA) = -Sa.transpose();
-  J_.block<1, kBending>(0, kB) = -Sb.transpose();
-  J_(0, kU) = share_;
-  J_.block<1, kBending>(1, kA) = N_.transpose();
-  J_.block<1, kBending>(2, kB) = N_.transpose();
-  J_.block<3, kBending>(3, kA) = Vector3d(0.5 * g * c2, 0.0, g) * slope_.transpose();
-  J_.block<3, kBending>(3, kB) = Vector3d(0.5 * g * c3, -g, 0.0) * slope_.transpose();
-  J_.block<3, 1>(3, kTwist) = h * share_ * tangent;
+  X_.block<1, kBending>(0, kA) = -Sa.transpose();
+  X_.block<1, kBending>(0, kB) = -Sb.transpose();
+  X_.block<3, kBending>(3, kA) = Vector3d(0.5 * g * c2, 0.0, g) * slope_.transpose();
+  X_.block<3, kBending>(3, kB) = Vector3d(0.5 * g * c3, -g, 0.0) * slope_.transpose();
+  X_.block<3, 1>(3, kTwist) = h * share_ * tangent;
+  X_.block<3, 3>(0, kAngular) = -Cross(pose_.p);
 }
 
 Motion Section::CarriedBy(const Motion& base) const {
@@ -69,11 +71,10 @@ Motion Section::CarriedBy(const Motion& base) const {
   return {Qt * velocity, Qt * (w + omega_), Qt * linear, Qt * angular};
 }
 
-Rate Section::CarriedBy(const Rate& base, const Eigen::Ref<const ElasticVec>& e_rate) const {
-  const Eigen::Matrix<double, 6, 1> relative = J_ * e_rate;
+Rate Section::CarriedBy(const BlockVec& rate) const {
+  const Eigen::Matrix<double, 6, 1> section = X_ * rate;
   const auto Qt = pose_.R.transpose();
-  return {Qt * (base.linear + base.angular.cross(pose_.p) + relative.head<3>()),
-          Qt * (base.angular + relative.tail<3>())};
+  return {Qt * section.head<3>(), Qt * section.tail<3>()};
 }
 
 }  // namespace reed::plant

@@ -20,7 +20,12 @@ namespace reed::plant {
 inline constexpr int kElastic = 2 * kBending + 2;
 inline constexpr int kA = 0, kB = kBending, kU = 2 * kBending, kTwist = 2 * kBending + 1;
 using ElasticVec = Eigen::Matrix<double, kElastic, 1>;
-using ElasticMat = Eigen::Matrix<double, kElastic, kElastic>;
+
+/// The coordinates together with the rate of the base: [e | linear | angular].
+inline constexpr int kBlock = kElastic + 6;
+inline constexpr int kLinear = kElastic, kAngular = kElastic + 3;
+using BlockVec = Eigen::Matrix<double, kBlock, 1>;
+using BlockMat = Eigen::Matrix<double, kBlock, kBlock, Eigen::RowMajor>;
 
 class Section {
  public:
@@ -35,18 +40,18 @@ class Section {
 
   /// Motion of the section's frame, in its own axes, carried by a base frame that moves like this.
   Motion CarriedBy(const Motion& base) const;
-  Rate CarriedBy(const Rate& base, const Eigen::Ref<const ElasticVec>& e_rate) const;
+  Rate CarriedBy(const BlockVec& rate) const;  // of [e | base]
 
-  /// d(linear, angular)/de, 6 x kElastic, relative to the base and in its axes.
-  using Jacobian = Eigen::Matrix<double, 6, kElastic, Eigen::RowMajor>;
-  const Jacobian& jacobian() const { return J_; }
+  /// Rate of the section (its origin, axes of the base) from [e' | linear and angular rate of the base].
+  using Transfer = Eigen::Matrix<double, 6, kBlock, Eigen::RowMajor>;
+  const Transfer& transfer() const { return X_; }
 
  private:
   double l_ = 0.0, share_ = 0.0;  // share_ = l/L
   BendingVec N_, slope_;
   BendingMat S_;
   Placement pose_;
-  Jacobian J_;
+  Transfer X_;
   Eigen::Vector3d velocity_, omega_, bias_linear_, bias_angular_;
 };
 
