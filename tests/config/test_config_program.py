@@ -1,0 +1,226 @@
+"""reed_config: what it refuses, in one line that names file, line, key and what is allowed; and what it writes."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tomllib
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"))
+PROGRAM = BUILD / "bin" / "reed_config"
+ARM = (ROOT / "config/arms/a5.toml").read_text()
+SCENARIO = (ROOT / "config/scenarios/press_known.toml").read_text()
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=30)
+    return done.returncode, done.stderr
+
+
+def refused(*arguments):
+    status, error = run(*arguments)
+    assert status == 2, (arguments, error)
+    assert len(error.splitlines()) == 1, error
+    return error
+
+
+def line_of(text, part):
+    """1-based number of the line that holds `part`, which stands in one line only."""
+    numbers = [n for n, line in enumerate(text.splitlines(), 1) if part in line]
+    assert len(numbers) == 1, (part, numbers)
+    return numbers[0]
+
+
+def changed(text, old, new):
+    assert text.count(old) == 1, f"{old!r} stands there {text.count(old)} times"
+    return text.replace(old, new)
+
+
+# what is written instead, the line that is named, and words of the message
+ARM_DEFECTS = {
+    "a missing row": ("  [0.0, 0.35, 0.0],\n", "", "[[bodies]]", ["arm.bodies", "5 bodies for 4 joints"]),
+    "a row too long": ("[0.0, 0.35, 0.0],", "[0.0, 0.35, 0.0, 1.0],", "0.35, 0.0, 1.0", ["arm.dh[2]", "3 numbers"]),
+    "millimetres": ("[0.0, 0.35, 0.0],", "[0.0, 350.0, 0.0],", "350.0", ["arm.dh[2]", "metres"]),
+    "degrees": ("[-1.5707963267948966, 0.0, 0.15],", "[-90.0, 0.0, 0.15],", "-90.0", ["arm.dh[4]", "radians"]),
+    "a zero length": ("length = 0.35 ", "length = 0.0 ", "length = 0.0 ", ["arm.sections[1].length", "1e-04 ... 20 m"]),
+    "a negative length": ("length = 0.35 ", "length = -0.35 ", "length = -0.35", ["arm.sections[1].length"]),
+    "a length that is not the dh row's": ("length = 0.35 ", "length = 0.36 ", None, ["arm.sections[1]", "0.36", "0.35"]),
+    "a negative mass": ("mass = 0.55", "mass = -0.55", "mass = -0.55", ["arm.bodies[2].mass", "0 ... 500 kg"]),
+    "grams": ("mass = 0.55", "mass = 550.0", "mass = 550.0", ["arm.bodies[2].mass", "500 kg"]),
+    "a unit that is not in the key": ("mass = 0.55", "mass_g = 550.0", None, ["arm.bodies[2].mass", "missing", "kg"]),
+    "zero stiffness": ("joint_stiffness = [8000.0,", "joint_stiffness = [0.0,", "joint_stiffness", ["arm.joint_stiffness[0]", "N·m/rad"]),
+    "a negative EI": ("EI = 957.161305615505", "EI = -957.0", "EI = -957.0", ["arm.sections[1].EI", "N·m²"]),
+    "an infinite EI": ("EI = 957.161305615505", "EI = inf", "EI = inf", ["arm.sections[1].EI", "finite"]),
+    "an inertia against the triangle inequality": ("[0.0, 0.004125, 0.0]", "[0.0, 0.04125, 0.0]", "0.04125", ["arm.bodies[2].inertia_about_com", "triangle"]),
+    "an inertia that is not symmetric": ("[0.0, 0.004125, 0.0]", "[0.1, 0.004125, 0.0]", "[0.1, 0.004125", ["not symmetric"]),
+    "gravity in units of g": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, -1.0]", "gravity = ", ["arm.gravity", "m/s²", "units of g"]),
+    "gravity in mm": ("[0.0, 0.0, -9.81]", "[0.0, 0.0, -9810.0]", "gravity = ", ["arm.gravity[2]", "30 m/s²"]),
+    "NaN": ("coulomb = [0.3, 0.3", "coulomb = [nan, 0.3", "coulomb", ["arm.coulomb[0]", "finite"]),
+    "an unknown key": ("gravity = ", "gravitty = ", "gravitty", ["arm.gravitty", "unknown key", "gravity"]),
+    "a missing joint": ("torque_limit = [40.0, ", "torque_limit = [", "torque_limit", ["arm.torque_limit", "4 numbers for 5 joints"]),
+    "a text for numbers": ("torque_limit = [40.0, 40.0, 25.0, 12.0, 8.0]", 'torque_limit = "40 Nm"', "torque_limit", ["arm.torque_limit", "expected a number", "N·m"]),
+    "an empty box": ("p_lo = [0.0,", "p_lo = [5.0,", "p_lo", ["arm.p_lo", "m2", "5 > 1.2"]),
+    "an empty range": ("position_min = [-2.9,", "position_min = [2.95,", "position_min", ["arm.position_min", "joint 1"]),
+    "too many joints": ("dh = [", "dh = [[0, 0, 0.1], [0, 0, 0.1], [0, 0, 0.1], [0, 0, 0.1],", "dh = [", ["9 joints", "1 ... 8"]),
+    "a shape of nobody": ('param = "m3"', 'param = "m7"', 'param = "m7"', ["arm.param_shapes[3].param", "m7"]),
+    "no TOML": ("dh = [", "dh = [[", None, ["not TOML"]),
+}
+
+
+@pytest.mark.parametrize("defect", ARM_DEFECTS)
+def test_an_arm_file_with(defect, tmp_path):
+    old, new, at, words = ARM_DEFECTS[defect]
+    path = tmp_path / "arm.toml"
+    text = changed(ARM, old, new)
+    path.write_text(text)
+    error = refused("--arm", str(path))
+    assert error.startswith(f"{path}:"), error
+    if at is not None and text.count(at) == 1:
+        assert error.startswith(f"{path}:{line_of(text, at)}: "), error
+    for word in words:
+        assert word in error, error
+
+
+SCENARIO_DEFECTS = {
+    "an unknown key": ("offset_m", "offsett_m", "offsett_m", ["wall.offsett_m", "unknown key", "offset_m"]),
+    "an unknown unit": ("offset_m", "offset_mm", "offset_mm", ["wall.offset_mm", "unknown key", "offset_m"]),
+    "an unknown section": ("[wall]", "[walls]", "[walls]", ["walls", "unknown section", "wall,"]),
+    "NaN": ("friction = 0.1", "friction = nan", "friction = nan", ["wall.friction", "finite", "0 ... 2"]),
+    "a number out of range": ("friction = 0.1", "friction = 7.0", "friction = 7", ["wall.friction", "0 ... 2"]),
+    "an unknown arm": ('arm = "a5"', 'arm = "b9"', 'arm = "b9"', ["'b9'", "a5, a7, p2"]),
+    "an unknown leg": ('kind = "slide"', 'kind = "jump"', 'kind = "jump"', ["reference.legs[1].kind", "hold, joint"]),
+    "an unknown law": ("Lambda = 15.0", 'Lambda = 15.0\nlaw = "magic"', "magic", ["control.law", "magic", "separated"]),
+    "an unknown force source": ('source = "known"', 'source = "felt"', "felt", ["force.source", "known, unknown"]),
+    "a force loop that is not stable": ("Lambda = 15.0", "Lambda = 15.0\nk_i = 3.0", "k_i = 3.0", ["control.k_i", "k_i < a_force k_p"]),
+    "gains that chatter": ("K_d = [45.0, 41.0, 24.0, 7.5, 4.2]", "K_d = 400.0", "K_d", ["control.K_d", "joint 1", "120 N·m·s/rad"]),
+    "too few gains": ("K_d = [45.0, 41.0, 24.0, 7.5, 4.2]", "K_d = [33.0, 30.0]", "K_d", ["control.K_d", "2 numbers for 5 joints"]),
+    "a start beyond a joint limit": ("[0.0, 1.057362,", "[0.0, 2.057362,", "start_rad", ["reference.start_rad", "joint 2", "1.85"]),
+    "a wall out of reach": ("[0.4, 0.0, 0.156]", "[0.4, 0.0, 3.0]", "point_m", ["wall.point_m", "reaches 1 m"]),
+    "a seed with a fraction": ("seed = 1", "seed = 1.5", "seed", ["scenario.seed", "whole number"]),
+    "a key twice": ("seed = 1", "seed = 1\nseed = 2", "seed = 2", ["not TOML"]),
+}
+
+
+@pytest.mark.parametrize("defect", SCENARIO_DEFECTS)
+def test_a_scenario_with(defect, tmp_path):
+    old, new, at, words = SCENARIO_DEFECTS[defect]
+    path = tmp_path / "scenario.toml"
+    text = changed(SCENARIO, old, new)
+    path.write_text(text)
+    error = refused("--config", str(path))
+    assert error.startswith(f"{path}:{line_of(text, at)}: "), error
+    for word in words:
+        assert word in error, error
+
+
+@pytest.mark.parametrize("assignment, words", [
+    ("control.k_p=nan", ["--set control.k_p: ", "finite", "m/(s·N)"]),
+    ("control.zz=1", ["control.zz", "unknown key", "K_d"]),
+    ("wall.point_m=3", ["wall.point_m", "[x, y, z]"]),
+    ("scenario.seed=-1", ["scenario.seed", "0 ... "]),
+    ("nonsense", ["--set nonsense", "SECTION.KEY=VALUE"]),
+    ("=3", ["SECTION.KEY=VALUE"]),
+    ("nowhere.b=1", ["--set nowhere.b", "unknown section", "control"]),
+    ("arm.torque_limit=0", ["arm.torque_limit", "0.001 ... 10000 N·m"]),
+    ("arm.bodies.7.mass=1", ["'7'", "0 ... 4"]),
+    ("arm.bodies.1.mass=-2", ["arm.bodies[1].mass", "0 ... 500 kg"]),
+    ("reference.legs.x.kind=hold", ["'x'", "0 ... 1"]),
+    ("timing.rate_hz=20 kHz", ["timing.rate_hz", "expected a number", "Hz"]),
+    ("control.law=magic", ["control.law", "separated"]),
+    ("limits.hold_age_cycles=10", ["limits.hold_age_cycles", "hold_age_cycles < stop_age_cycles"]),
+])
+def test_an_override_that_says(assignment, words):
+    error = refused("--set", assignment)
+    for word in words:
+        assert word in error, error
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["--config", "nope"], ["'nope'", "press_known"]),
+    (["--arm", "nope"], ["--arm nope", "a5, a7, p2"]),
+    (["--config", "/no/such.toml"], ["/no/such.toml", "no such file"]),
+    (["--arm", "/no/such.json"], ["/no/such.json", "no such file"]),
+    (["--write", "/no/such/folder/x"], ["/no/such/folder/x"]),
+    (["--colour", "red"], ["--colour"]),
+])
+def test_a_command_line_with(arguments, words):
+    error = refused(*arguments)
+    for word in words:
+        assert word in error, error
+
+
+def a5_as_json():
+    """The arm in the other format: no limits of position and speed, and keys for people only."""
+    arm = tomllib.loads(ARM)
+    for key in ("position_min", "position_max", "speed_limit"):
+        del arm[key]
+    arm["tool_offset_in_last_frame"] = arm.pop("tool_offset")
+    return arm | {"units": "SI, rad", "convention": "modified (Craig) DH", "dh_rows": ["alpha", "a", "d"], "note": "x"}
+
+
+def test_a_json_arm_without_limits_runs_with_careful_ones(tmp_path):
+    path, out = tmp_path / "arm.json", tmp_path / "effective.toml"
+    path.write_text(json.dumps(a5_as_json(), indent=1))
+    assert run("--arm", str(path), "--write", str(out)) == (0, "")
+    arm = tomllib.loads(out.read_text())["arm"]
+    assert arm["position_min"] == [-2.9] * 5 and arm["position_max"] == [2.9] * 5
+    assert arm["speed_limit"] == [3.0] * 5
+    given = tomllib.loads(ARM)
+    for key in ("dh", "p_true", "torque_limit", "joint_stiffness"):
+        assert arm[key] == given[key]
+
+
+@pytest.mark.parametrize("key", ["rotor_inertia_reflected", "joint_stiffness", "torque_limit"])
+def test_an_arm_that_does_not_say_what_its_drives_are_made_of_is_refused_by_key(key, tmp_path):
+    arm = a5_as_json()
+    del arm[key]
+    path = tmp_path / "arm.json"
+    path.write_text(json.dumps(arm, indent=1))
+    error = refused("--arm", str(path))
+    assert f"arm.{key}" in error and "missing" in error and str(path) in error
+
+
+def test_a_defect_in_a_json_arm_is_named_with_its_line(tmp_path):
+    arm = a5_as_json()
+    arm["torque_limit"] = [40.0, 40.0]
+    path = tmp_path / "arm.json"
+    text = json.dumps(arm, indent=1)
+    path.write_text(text)
+    assert refused("--arm", str(path)).startswith(f"{path}:{line_of(text, 'torque_limit')}: arm.torque_limit")
+    path.write_text(text[:-20])
+    assert "not JSON" in refused("--arm", str(path))
+
+
+def test_effective_numbers_are_as_short_as_typed_and_read_back_unchanged(tmp_path):
+    first, second = tmp_path / "first.toml", tmp_path / "second.toml"
+    numbers = "[0.3, 0.1, 1e-05, 123456789.125, 100.0]"
+    assert run("--set", "control.Lambda=0.1", "--set", "arm.joint_hardening=" + numbers, "--write", str(first)) == (0, "")
+    text = first.read_text()
+    assert "Lambda = [0.1, 0.1, 0.1, 0.1, 0.1]" in text
+    assert "99999" not in text and "00000001" not in text
+    effective = tomllib.loads(text)
+    assert effective["arm"]["joint_hardening"] == json.loads(numbers)
+    assert isinstance(effective["arm"]["joint_hardening"][4], float)
+    assert effective["arm"]["dh"] == tomllib.loads(ARM)["dh"]
+    assert run("--config", str(first), "--write", str(second)) == (0, "")
+    assert second.read_text() == text
+
+
+def test_the_readme_holds_the_table_of_every_key():
+    keys = subprocess.run([PROGRAM, "--keys"], capture_output=True, text=True, check=True).stdout
+    assert keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --keys` prints"
+
+
+def test_the_readme_names_every_key_of_the_arm_and_every_check():
+    readme = (ROOT / "config/README.md").read_text()
+    known = refused("--set", "arm.zz=1").split("allowed: ")[1].strip().split(", ")
+    assert len(known) > 20
+    for key in known:
+        assert key in readme, key
+    from reed_tools import checks
+    for name, member in vars(checks).items():
+        if callable(member) and getattr(member, "__module__", "") == checks.__name__ and name.islower():
+            assert f"| {name} |" in readme, name

@@ -1,0 +1,132 @@
+// Controller and plant in one process and in virtual time: the real cycle, the real plant endpoint, a wire in
+// memory on which frames can be lost, changed and invented. Only tests may link both.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "bus/messages.h"
+#include "config/schema/scenario_file.h"
+#include "firmware/cycle_base.h"
+#include "firmware/rt/clock.h"
+#include "firmware/rt/heap_guard.h"
+#include "plant_sim/endpoint/flexible_arm_body.h"
+#include "plant_sim/endpoint/lockstep_endpoint.h"
+#include "tests/support/fake_transport.h"
+
+namespace reed::test {
+
+/// The last truth of the plant.
+class LastTruth final : public plant::Recorder {
+ public:
+  void Put(const plant::Record& record) noexcept override {
+    if (const auto* truth = std::get_if<plant::PlantRecord>(&record)) last = *truth;
+  }
+  plant::PlantRecord last;
+};
+
+/// The controller's end of the wire: when it waits for answers, the plant works.
+class PlantBehindWire final : public bus::Transport {
+ public:
+  PlantBehindWire(FakeTransport& end, std::function<void()> plant) : end_(end), plant_(std::move(plant)) {}
+
+  int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
+    const rt::HeapCount count;
+    plant_();
+    const int received = end_.Receive(out, wanted, deadline_ns);
+    heap_calls += count.calls();
+    return received;
+  }
+  int Send(std::span<const bus::Frame> frames) noexcept override {
+    const rt::HeapCount count;
+    const int sent = end_.Send(frames);
+    heap_calls += count.calls();
+    return sent;
+  }
+  bool alive() const noexcept override { return end_.alive(); }
+  const bus::TransportCounters& counters() const noexcept override { return end_.counters(); }
+  std::string kind() const override { return end_.kind(); }
+  std::string interface() const override { return end_.interface(); }
+
+  std::int64_t heap_calls = 0;  // of the plant and of the wire, which are not the controller's
+
+ private:
+  FakeTransport& end_;
+  std::function<void()> plant_;
+};
+
+class SilRig {
+ public:
+  /// Decides about one frame on its way to the controller: false loses it, changes are allowed.
+  using OnTheWay = std::function<bool(std::uint32_t cycle, bus::Frame& frame)>;
+
+  explicit SilRig(const Scenario& scenario, bool enable = true)
+      : scenario_(scenario),
+        body_(scenario_),
+        endpoint_(scenario_, wire_.plant, body_, truth_),
+        transport_(wire_.controller, [this] { LetPlantWork(); }),
+        cycle_(MakeCycle(scenario_, transport_, enable)) {}
+
+  /// One cycle; what happened is in snapshot() and truth().
+  CycleStatus Run(const LoopState& loop = {}) {
+    snapshot_.ClearLists();
+    snapshot_.cycle = number_;
+    snapshot_.time_ns = rt::MonotonicClock{}.NowNs();
+    const rt::HeapCount count;
+    const std::int64_t others_before = transport_.heap_calls;
+    const CycleStatus status = cycle_->Run(number_, 0, loop, snapshot_);
+    heap_calls_ += count.calls() - (transport_.heap_calls - others_before);
+    ++number_;
+    return status;
+  }
+  /// Until the arm has been active this long; false if it was not to be.
+  bool RunActive(double seconds) {
+    constexpr int kStartCycles = 1000;
+    const double end_s = seconds - 0.5 / scenario_.timing.rate_hz;
+    for (int waited = 0; waited < kStartCycles && mode() != mode::Mode::kActive; ++waited) Run();
+    while (mode() == mode::Mode::kActive && snapshot_.control.t_s < end_s) Run();
+    return mode() == mode::Mode::kActive;
+  }
+
+  mode::Mode mode() const { return cycle_->mode(); }
+  protect::Reason trip() const { return cycle_->trip(); }
+  bool LimitActs(protect::Reason reason) const {
+    return (snapshot_.control.limits & protect::LimitBit(reason)) != 0;
+  }
+  bool TorqueIsZero() const {
+    for (const double tau : snapshot_.control.tau)
+      if (tau != 0.0) return false;
+    return true;
+  }
+  const telemetry::Snapshot& snapshot() const { return snapshot_; }
+  const plant::PlantRecord& truth() const { return truth_.last; }
+  const plant::DriveChain& drives() const { return endpoint_.robot().drives(); }
+  std::int64_t heap_calls() const { return heap_calls_; }
+  std::uint32_t cycle_number() const { return number_; }
+
+  OnTheWay on_the_way;
+  std::optional<bus::Frame> injected;  // reaches the controller in the next cycle
+
+ private:
+  void LetPlantWork() {
+    endpoint_.Poll(0);
+    std::deque<bus::Frame>& inbox = wire_.controller.inbox;
+    if (on_the_way) std::erase_if(inbox, [this](bus::Frame& frame) { return !on_the_way(number_, frame); });
+    if (injected) inbox.push_front(*injected);
+    injected.reset();
+  }
+
+  Scenario scenario_;
+  FakeWire wire_;
+  plant::FlexibleArmBody body_;
+  LastTruth truth_;
+  plant::LockstepEndpoint endpoint_;
+  PlantBehindWire transport_;
+  std::unique_ptr<CycleBase> cycle_;
+  telemetry::Snapshot snapshot_;
+  std::uint32_t number_ = 0;
+  std::int64_t heap_calls_ = 0;
+};
+
+}  // namespace reed::test

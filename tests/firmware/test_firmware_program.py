@@ -1,0 +1,169 @@
+"""reed_firmware and reed_plant_sim as processes: bad input and bad surroundings give one clear line and the right status."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"))
+FIRMWARE, PLANT = BUILD / "bin" / "reed_firmware", BUILD / "bin" / "reed_plant_sim"
+GROUP = "239.74.163.2"
+PROGRAMS = {"reed_firmware": FIRMWARE, "reed_plant_sim": PLANT}
+
+
+def bus(port):
+    return f"udp:{GROUP}:{port}"
+
+
+def run(*command, timeout=30):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=timeout)
+    return done.returncode, done.stderr
+
+
+def start(*command):
+    return subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def end(process, sig=signal.SIGINT):
+    if process.poll() is None:
+        process.send_signal(sig)
+    out, err = process.communicate(timeout=30)
+    return process.returncode, out, err
+
+
+@pytest.fixture
+def plant():
+    """Starts the plant on a port of its own; ends it in order."""
+    running = []
+
+    def begin(port, *options):
+        process = start(PLANT, "--config", "press_known", "--bus", bus(port), "--no-lcm", *options)
+        assert "waiting for SYNC" in process.stdout.readline()
+        running.append(process)
+        return process
+
+    yield begin
+    for process in running:
+        end(process)
+
+
+BAD_INPUT = {
+    "an unknown scenario": (["--config", "nope"], ["'nope'", "press_known"]),
+    "no scenario": ([], ["--config"]),
+    "an unknown option": (["--config", "press_known", "--colour", "red"], ["--colour", "--help"]),
+    "an unknown clock": (["--config", "press_known", "--clock", "sundial"], ["--clock", "wall", "lockstep"]),
+    "an unknown bus": (["--config", "press_known", "--bus", "pigeon"], ["pigeon", "socketcan:IFACE"]),
+    "a missing interface": (["--config", "press_known", "--bus", "socketcan:no_such0"], ["no_such0"]),
+    "a port that is no number": (["--config", "press_known", "--bus", f"udp:{GROUP}:x"], ["udp"]),
+    "a group that is no multicast address": (["--config", "press_known", "--bus", "udp:10.0.0.1:43000"], ["10.0.0.1"]),
+    "an unknown arm": (["--config", "press_known", "--arm", "a99"], ["a99", "a5"]),
+    "a missing arm file": (["--config", "press_known", "--arm", "/no/such.toml"], ["/no/such.toml", "no such file"]),
+    "an unknown key": (["--config", "press_known", "--set", "wall.colour=1"], ["wall.colour", "unknown key"]),
+    "NaN": (["--config", "press_known", "--set", "control.k_p=nan"], ["control.k_p", "finite"]),
+    "a unit with a number": (["--config", "press_known", "--set", "timing.rate_hz=1 kHz"], ["timing.rate_hz", "number"]),
+    "a log that cannot be written": (["--config", "press_known", "--bus", bus(43301), "--log", "/no/such/folder/x"],
+                                     ["/no/such/folder/x"]),
+}
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+@pytest.mark.parametrize("case", BAD_INPUT)
+def test_bad_input_is_one_line_and_exit_2(program, case):
+    arguments, words = BAD_INPUT[case]
+    status, error = run(PROGRAMS[program], *arguments)
+    assert status == 2, error
+    assert len(error.splitlines()) == 1 and error.startswith(f"{program}: "), error
+    for word in words:
+        assert word in error, error
+
+
+def test_a_rate_that_no_wire_could_carry_is_refused_with_the_highest_one():
+    slower = ["--set", "timing.rx_budget_us=80", "--set", "timing.compute_budget_us=50", "--set", "timing.tx_budget_us=50"]
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43302), "--set", "timing.rate_hz=5000",
+                        "--set", "control.K_d=5", *slower)
+    assert status == 2 and len(error.splitlines()) == 1, error
+    for word in ("timing.rate_hz", "5000 Hz", "%", "allowed: up to", "allow_wire_overload"):
+        assert word in error, error
+
+
+def test_a_leg_that_the_arm_cannot_follow_is_refused_on_the_ground():
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43303), "--set", "reference.legs.1.frequency_hz=20")
+    assert status == 2 and len(error.splitlines()) == 1, error
+    for word in ("reference.legs", "joint", "too fast", "rad/s"):
+        assert word in error, error
+
+
+def test_a_bus_on_which_nobody_answers_is_lost_and_exit_3():
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43304), "--clock", "lockstep", "--no-lcm")
+    assert status == 3
+    assert "bus is lost" in error and "43304" in error
+
+
+def test_a_second_firmware_on_the_same_bus_is_refused_and_the_first_goes_on(plant):
+    plant(43305, "--clock", "wall")
+    first = start(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
+    time.sleep(1.0)  # until it says SYNC
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
+    assert status == 3
+    assert error.splitlines()[-1].startswith("reed_firmware: another controller") and "43305" in error, error
+    assert first.poll() is None
+    status, out, _ = end(first)
+    assert status == 0 and "done: " in out
+
+
+@pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_a_run_that_only_watches(plant, sig):
+    plant(43306, "--clock", "wall")
+    process = start(FIRMWARE, "--config", "press_known", "--bus", bus(43306), "--no-lcm")
+    time.sleep(1.0)
+    status, out, _ = end(process, sig)
+    assert status == 0 and "done: " in out
+
+
+def without_rights(*command):
+    """The same program without the right to raise its priority or to lock memory."""
+    dropped = "-sys_nice,-ipc_lock,-sys_resource"
+    prefix = ["setpriv", f"--bounding-set={dropped}", f"--inh-caps={dropped}"] if os.geteuid() == 0 else []
+    return ["bash", "-c", 'ulimit -r 0; ulimit -l 64; exec "$@"', "_", *prefix, *command]
+
+
+def test_a_refused_priority_and_memory_lock_cost_a_line_each_and_nothing_else(plant):
+    assert shutil.which("setpriv"), "util-linux is part of every Debian"
+    plant(43307, "--clock", "wall")
+    process = start(*without_rights(FIRMWARE, "--config", "press_known", "--bus", bus(43307), "--no-lcm"))
+    time.sleep(1.0)
+    status, out, error = end(process)
+    assert status == 0 and "done: " in out, error
+    assert "SCHED_FIFO" in error and "memory" in error.lower(), error
+    for line in error.splitlines():
+        assert line.startswith("reed_firmware: "), error
+
+
+@pytest.mark.parametrize("loopback, words", [("down", ["lo", "up"]), ("up", ["route", "ip route add"])])
+def test_without_a_multicast_route_the_line_says_how_to_add_one(loopback, words):
+    new_network = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--user", "--map-root-user", "--net"]
+    if subprocess.run([*new_network, "true"], capture_output=True).returncode != 0:
+        pytest.fail("this test needs a network namespace: run it as root or allow user namespaces")
+    up = "ip link set lo up;" if loopback == "up" else ""
+    for program in PROGRAMS.values():
+        status, error = run(*new_network, "bash", "-c", up + 'exec "$@"', "_", program, "--config", "press_known", "--bus", bus(43308))
+        assert status == 2, error
+        assert len(error.splitlines()) == 1, error
+        for word in words:
+            assert word in error, error
+
+
+def test_a_whole_run_by_hand_records_and_ends_by_itself(plant, tmp_path):
+    plant(43309, "--clock", "lockstep")
+    log, candump = tmp_path / "firmware.lcmlog", tmp_path / "bus.candump"
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43309), "--clock", "lockstep", "--enable", "--no-lcm",
+                        "--set", "scenario.duration_s=0.3", "--log", log, "--candump", candump, timeout=120)
+    assert status == 0, error
+    lines = candump.read_text().splitlines()
+    assert len(lines) >= 8 * 300 and " 080##" in lines[0]
+    assert log.stat().st_size > 300 * 500
