@@ -1,8 +1,10 @@
 """reed_config: what it refuses, in one line that names file, line, key and what is allowed; and what it writes."""
 
+import inspect
 import json
 import os
 import pathlib
+import re
 import subprocess
 import tomllib
 
@@ -11,8 +13,9 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"))
 PROGRAM = BUILD / "bin" / "reed_config"
-ARM = (ROOT / "config/arms/a5.toml").read_text()
-SCENARIO = (ROOT / "config/scenarios/press_known.toml").read_text()
+DATA = pathlib.Path(__file__).resolve().parent / "data"  # sound files of the test's own: the shipped ones may change
+ARM = (DATA / "a5.toml").read_text()
+SCENARIO = (DATA / "press_known.toml").read_text()
 
 
 def run(*arguments):
@@ -90,13 +93,13 @@ SCENARIO_DEFECTS = {
     "an unknown section": ("[wall]", "[walls]", "[walls]", ["walls", "unknown section", "wall,"]),
     "NaN": ("friction = 0.1", "friction = nan", "friction = nan", ["wall.friction", "finite", "0 ... 2"]),
     "a number out of range": ("friction = 0.1", "friction = 7.0", "friction = 7", ["wall.friction", "0 ... 2"]),
-    "an unknown arm": ('arm = "a5"', 'arm = "b9"', 'arm = "b9"', ["'b9'", "a5, a7, p2"]),
+    "an unknown arm": ('arm = "a5"', 'arm = "b9"', 'arm = "b9"', ["'b9'", "a5, ", ".toml or .json"]),
     "an unknown leg": ('kind = "slide"', 'kind = "jump"', 'kind = "jump"', ["reference.legs[1].kind", "hold, joint"]),
     "an unknown law": ("Lambda = 15.0", 'Lambda = 15.0\nlaw = "magic"', "magic", ["control.law", "magic", "separated"]),
     "an unknown force source": ('source = "known"', 'source = "felt"', "felt", ["force.source", "known, unknown"]),
     "a force loop that is not stable": ("Lambda = 15.0", "Lambda = 15.0\nk_i = 3.0", "k_i = 3.0", ["control.k_i", "k_i < a_force k_p"]),
-    "gains that chatter": ("K_d = [45.0, 41.0, 24.0, 7.5, 4.2]", "K_d = 400.0", "K_d", ["control.K_d", "joint 1", "120 N·m·s/rad"]),
-    "too few gains": ("K_d = [45.0, 41.0, 24.0, 7.5, 4.2]", "K_d = [33.0, 30.0]", "K_d", ["control.K_d", "2 numbers for 5 joints"]),
+    "gains that chatter": ("K_d = [33.0, 30.0, 18.0, 5.5, 3.1]", "K_d = 400.0", "K_d", ["control.K_d", "joint 1", "120 N·m·s/rad"]),
+    "too few gains": ("K_d = [33.0, 30.0, 18.0, 5.5, 3.1]", "K_d = [33.0, 30.0]", "K_d", ["control.K_d", "2 numbers for 5 joints"]),
     "a start beyond a joint limit": ("[0.0, 1.057362,", "[0.0, 2.057362,", "start_rad", ["reference.start_rad", "joint 2", "1.85"]),
     "a wall out of reach": ("[0.4, 0.0, 0.156]", "[0.4, 0.0, 3.0]", "point_m", ["wall.point_m", "reaches 1 m"]),
     "a seed with a fraction": ("seed = 1", "seed = 1.5", "seed", ["scenario.seed", "whole number"]),
@@ -126,7 +129,7 @@ def test_a_scenario_with(defect, tmp_path):
     ("nowhere.b=1", ["--set nowhere.b", "unknown section", "control"]),
     ("arm.torque_limit=0", ["arm.torque_limit", "0.001 ... 10000 N·m"]),
     ("arm.bodies.7.mass=1", ["'7'", "0 ... 4"]),
-    ("arm.bodies.1.mass=-2", ["arm.bodies[1].mass", "0 ... 500 kg"]),
+    ("arm.bodies.1.mass=-2", ["--set arm.bodies.1.mass: ", "-2", "0 ... 500 kg"]),
     ("reference.legs.x.kind=hold", ["'x'", "0 ... 1"]),
     ("timing.rate_hz=20 kHz", ["timing.rate_hz", "expected a number", "Hz"]),
     ("control.law=magic", ["control.law", "separated"]),
@@ -140,7 +143,7 @@ def test_an_override_that_says(assignment, words):
 
 @pytest.mark.parametrize("arguments, words", [
     (["--config", "nope"], ["'nope'", "press_known"]),
-    (["--arm", "nope"], ["--arm nope", "a5, a7, p2"]),
+    (["--arm", "nope"], ["--arm nope", "a5, ", "p2"]),
     (["--config", "/no/such.toml"], ["/no/such.toml", "no such file"]),
     (["--arm", "/no/such.json"], ["/no/such.json", "no such file"]),
     (["--write", "/no/such/folder/x"], ["/no/such/folder/x"]),
@@ -194,13 +197,19 @@ def test_a_defect_in_a_json_arm_is_named_with_its_line(tmp_path):
     assert "not JSON" in refused("--arm", str(path))
 
 
+def digits(number):
+    """How many significant ones."""
+    return len(number.split("e")[0].replace(".", "").replace("-", "").strip("0"))
+
+
 def test_effective_numbers_are_as_short_as_typed_and_read_back_unchanged(tmp_path):
     first, second = tmp_path / "first.toml", tmp_path / "second.toml"
     numbers = "[0.3, 0.1, 1e-05, 123456789.125, 100.0]"
     assert run("--set", "control.Lambda=0.1", "--set", "arm.joint_hardening=" + numbers, "--write", str(first)) == (0, "")
     text = first.read_text()
     assert "Lambda = [0.1, 0.1, 0.1, 0.1, 0.1]" in text
-    assert "99999" not in text and "00000001" not in text
+    for number in re.findall(r"-?\d+\.\d+(?:e[+-]\d+)?", text):
+        assert digits(number) <= digits(repr(float(number))), number
     effective = tomllib.loads(text)
     assert effective["arm"]["joint_hardening"] == json.loads(numbers)
     assert isinstance(effective["arm"]["joint_hardening"][4], float)
@@ -222,5 +231,5 @@ def test_the_readme_names_every_key_of_the_arm_and_every_check():
         assert key in readme, key
     from reed_tools import checks
     for name, member in vars(checks).items():
-        if callable(member) and getattr(member, "__module__", "") == checks.__name__ and name.islower():
+        if inspect.isfunction(member) and list(inspect.signature(member).parameters) == ["run"]:
             assert f"| {name} |" in readme, name
