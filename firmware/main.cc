@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
+#include <thread>
 
 #include "bus/open_transport.h"
 #include "bus/wire_time.h"
@@ -14,6 +16,7 @@
 #include "firmware/options.h"
 #include "firmware/rt/heap_guard.h"
 #include "firmware/rt/realtime_scope.h"
+#include "firmware/rt/syscall_guard.h"
 #include "firmware/rt/usage.h"
 
 namespace reed {
@@ -27,8 +30,21 @@ constexpr std::size_t kRingCapacity = 1024;
 struct Flight {
   LoopResult result;
   rt::RealtimeReport report;
-  std::int64_t heap_allocations = 0, page_faults = 0;
+  std::int64_t heap_allocations = 0;
+  rt::Usage usage;
 };
+
+/// The loop and nothing else, counted.
+void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::SnapshotRing& ring,
+               const std::atomic<bool>& stop, Flight& flight) noexcept {
+  const rt::Usage before = rt::ThreadUsage();
+  const rt::HeapCount heap;
+  // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
+  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(cycle, ring, stop);
+  // ---- real time ends ----
+  flight.heap_allocations = heap.calls();
+  flight.usage = rt::ThreadUsage() - before;
+}
 
 Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
            telemetry::SnapshotRing& ring) {
@@ -41,14 +57,19 @@ Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
     std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
 
   Flight flight;
-  const rt::Usage before = rt::ThreadUsage();
-  const rt::HeapCount heap;
-  // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
-  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(cycle, ring, stop);
-  // ---- real time ends ----
-  flight.heap_allocations = heap.calls();
-  flight.page_faults = (rt::ThreadUsage() - before).page_faults();
   flight.report = scope.report();
+  if (!options.seccomp) {
+    FlyInside(loop, wall, cycle, ring, stop, flight);
+    return flight;
+  }
+  std::atomic<bool> guarded{true};
+  std::thread thread([&] {  // inside the scope: it inherits priority and core
+    guarded = rt::ArmSyscallGuard();
+    if (guarded) FlyInside(loop, wall, cycle, ring, stop, flight);
+    rt::EndGuardedThread();
+  });
+  thread.join();
+  if (!guarded) throw std::runtime_error("--seccomp: this kernel refuses seccomp filters; run without it");
   return flight;
 }
 
@@ -76,7 +97,7 @@ void Complete(run_t& run, const Flight& flight) {
   run.memory_locked = flight.report.memory.granted;
   run.cpu = flight.report.cpu;
   run.heap_allocations = flight.heap_allocations;
-  run.page_faults = flight.page_faults;
+  run.page_faults = flight.usage.page_faults();
   run.telemetry_dropped = flight.result.dropped;
   run.wall_s = flight.result.wall_s;
 }
@@ -109,9 +130,12 @@ int Run(const Options& options) {
   for (const std::string& line : recorder.Close().Problems())
     std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
   if (!options.quiet)
-    std::printf("done: %lld cycles, %lld missed, %lld heap allocations in the loop\n",
-                static_cast<long long>(flight.result.cycles), static_cast<long long>(flight.result.missed),
-                static_cast<long long>(flight.heap_allocations));
+    std::printf(
+        "done: %lld cycles, %lld missed, in the loop: %lld heap allocations, %lld page faults, "
+        "%lld involuntary switches\n",
+        static_cast<long long>(flight.result.cycles), static_cast<long long>(flight.result.missed),
+        static_cast<long long>(flight.heap_allocations), static_cast<long long>(flight.usage.page_faults()),
+        static_cast<long long>(flight.usage.involuntary_switches));
   if (flight.result.status == CycleStatus::kBusLost) {
     std::fprintf(
         stderr,

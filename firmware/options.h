@@ -19,6 +19,7 @@ struct Options {
   bool enable = false;  // the operator's wish to open the brakes
   bool quiet = false;
   bool lcm = true;
+  bool seccomp = false;  // any system call that a cycle does not need ends the program
 };
 
 /// Prints help or one error line and ends the process (0 or 2) when there is nothing to run.

@@ -158,6 +158,8 @@ Bytes Encoder::Event(const Snapshot& snapshot, int index, const char* text, std:
   return Encode(out);
 }
 
+Bytes Encoder::Histogram(const reed::histogram_t& histogram) { return Encode(histogram); }
+
 Bytes Encoder::Run(const reed::run_t& run) { return Encode(run); }
 
 }  // namespace reed::telemetry

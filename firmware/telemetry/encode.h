@@ -8,6 +8,7 @@
 #include <reed/bus_t.hpp>
 #include <reed/control_t.hpp>
 #include <reed/event_t.hpp>
+#include <reed/histogram_t.hpp>
 #include <reed/measured_t.hpp>
 #include <reed/run_t.hpp>
 #include <reed/timing_t.hpp>
@@ -32,6 +33,7 @@ class Encoder {
   Bytes Bus(const BusCounters& counters, std::int64_t cycle, std::int64_t utime);
   /// @param index  of the snapshot's events
   Bytes Event(const Snapshot& snapshot, int index, const char* text, std::int64_t utime);
+  Bytes Histogram(const reed::histogram_t& histogram);
   /// @throws std::length_error if its strings do not fit one datagram
   Bytes Run(const reed::run_t& run);
 

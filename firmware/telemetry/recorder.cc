@@ -93,6 +93,7 @@ void Recorder::Run() {
   if (report_.snapshots > 0 && last_cycle_ + kBusPeriodCycles != next_bus_cycle_) {
     RecordBus(last_bus_, last_cycle_, last_utime_);
   }
+  if (report_.snapshots % kHistogramPeriodCycles != 0) RecordHistograms();
   Flush();
 }
 
@@ -132,6 +133,15 @@ void Recorder::Record(const Snapshot& snapshot) {
   last_bus_ = snapshot.bus;
   last_cycle_ = snapshot.cycle;
   last_utime_ = utime;
+  histograms_.Add(snapshot.timing);
+  if (report_.snapshots % kHistogramPeriodCycles == 0) RecordHistograms();
+}
+
+void Recorder::RecordHistograms() {
+  for (std::size_t i = 0; i < TimingHistograms::kNames.size(); ++i) {
+    histograms_.Fill(i, last_cycle_, last_utime_, histogram_);
+    Emit("REED_HISTOGRAM", encoder_.Histogram(histogram_), last_utime_, true);
+  }
 }
 
 void Recorder::RecordBus(const BusCounters& bus, std::int64_t cycle, std::int64_t utime) {

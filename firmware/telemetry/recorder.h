@@ -20,6 +20,7 @@
 #include "firmware/telemetry/rate_limit.h"
 #include "firmware/telemetry/snapshot.h"
 #include "firmware/telemetry/time_base.h"
+#include "firmware/telemetry/timing_histograms.h"
 
 namespace reed::telemetry {
 
@@ -50,6 +51,8 @@ class Recorder {
  public:
   /// Bus counters go out every so many cycles.
   static constexpr std::int64_t kBusPeriodCycles = 100;
+  /// Histograms go out every so many cycles, and at the end.
+  static constexpr std::int64_t kHistogramPeriodCycles = 1000;
 
   /// @throws std::runtime_error with one line if a file cannot be made
   Recorder(const RecorderOptions& options, const TimeBase& time, SnapshotRing& ring, EventText event_text);
@@ -75,6 +78,7 @@ class Recorder {
   void Run();
   bool DrainBatch();  // true: the ring is empty
   void Record(const Snapshot& snapshot);
+  void RecordHistograms();
   void RecordBus(const BusCounters& bus, std::int64_t cycle, std::int64_t utime);
   void Emit(const char* channel, Bytes message, std::int64_t utime, bool publish);
   void Flush();
@@ -88,6 +92,8 @@ class Recorder {
   Encoder encoder_;
   RateLimit cycle_limit_, event_limit_;
   RecorderReport report_;
+  TimingHistograms histograms_;
+  reed::histogram_t histogram_;
   BusCounters last_bus_;  // for the counters at the end
   std::int64_t last_cycle_ = 0;
   std::int64_t last_utime_ = 0;

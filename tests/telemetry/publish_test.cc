@@ -44,7 +44,8 @@ TEST(Publish, ASubscriberGetsTheNumbersOfTheSnapshot) {
   EXPECT_EQ(recorder.publish_problem(), "");
   recorder.Start();
   const RecorderReport report = recorder.Close();
-  EXPECT_EQ(report.lcm.written, 4 * 10 + 1 + 2) << "four channels, one event, bus at cycles 0 and 9";
+  EXPECT_EQ(report.lcm.written, 4 * 10 + 1 + 2 + 5)
+      << "four channels, one event, bus at cycles 0 and 9, five histograms";
   EXPECT_EQ(report.lcm.lost, 0);
 
   while (cycles.size() < 10 && lcm_handle_timeout(subscriber, 5000) > 0) {
