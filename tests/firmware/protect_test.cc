@@ -191,6 +191,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kOperator, 41},
                                             {Reason::kPhaseBudget, 5},
                                             {Reason::kStall, 6},
+                                            {Reason::kCollision, 7},
                                             {Reason::kPhaseBudgetInRow, 44},
                                             {Reason::kStaleWrench, 43},
                                             {Reason::kTorque, 96},
@@ -205,8 +206,8 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  32, 33, 34, 35,  36, 37,
-                            38, 39, 40, 41, 42, 43, 96, 97, 98, 99, 100, 44};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36,
+                            37, 38, 39, 40, 41, 43, 44, 96, 97, 98, 99, 100};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {

@@ -32,16 +32,16 @@ class PlantBehindWire final : public bus::Transport {
   PlantBehindWire(FakeTransport& end, std::function<void()> plant) : end_(end), plant_(std::move(plant)) {}
 
   int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
-    const rt::HeapCount count;
+    const std::int64_t before = Calls();
     plant_();
     const int received = end_.Receive(out, wanted, deadline_ns);
-    heap_calls += count.calls();
+    heap_calls += Calls() - before;
     return received;
   }
   int Send(std::span<const bus::Frame> frames) noexcept override {
-    const rt::HeapCount count;
+    const std::int64_t before = Calls();
     const int sent = end_.Send(frames);
-    heap_calls += count.calls();
+    heap_calls += Calls() - before;
     return sent;
   }
   bool alive() const noexcept override { return end_.alive(); }
@@ -49,9 +49,12 @@ class PlantBehindWire final : public bus::Transport {
   std::string kind() const override { return end_.kind(); }
   std::string interface() const override { return end_.interface(); }
 
-  std::int64_t heap_calls = 0;  // of the plant and of the wire, which are not the controller's
+  const rt::HeapCount* counting = nullptr;  // there is one count per thread at a time
+  std::int64_t heap_calls = 0;              // of the plant and of the wire, which are not the controller's
 
  private:
+  std::int64_t Calls() const noexcept { return counting != nullptr ? counting->calls() : 0; }
+
   FakeTransport& end_;
   std::function<void()> plant_;
 };
@@ -74,9 +77,11 @@ class SilRig {
     snapshot_.cycle = number_;
     snapshot_.time_ns = rt::MonotonicClock{}.NowNs();
     const rt::HeapCount count;
+    transport_.counting = &count;
     const std::int64_t others_before = transport_.heap_calls;
     const CycleStatus status = cycle_->Run(number_, 0, loop, snapshot_);
     heap_calls_ += count.calls() - (transport_.heap_calls - others_before);
+    transport_.counting = nullptr;
     ++number_;
     return status;
   }
