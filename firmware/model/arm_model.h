@@ -69,6 +69,7 @@ struct ArmModel {
   FixedArray<int, N>
       carrier;  // the longer member of each link, which carries its weight; -1: the link has none
 
+  ArmModel() = default;  // empty: for a target without a heap, whose fields are filled from an image
   explicit ArmModel(const ArmDescription& arm);
 
  private:

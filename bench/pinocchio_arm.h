@@ -1,0 +1,40 @@
+// An arm of config/arms as a Pinocchio model, and its structural parameters in Pinocchio's inertial
+// parameters. Set-up only.
+#pragma once
+
+#include <pinocchio/algorithm/regressor.hpp>
+#include <pinocchio/multibody.hpp>
+
+#include "config/schema/arm_description.h"
+
+namespace reed::bench {
+
+inline pinocchio::Inertia BodyInertia(const InertialBody& body) {
+  return {body.mass_kg, body.com_m, body.inertia_com_kgm2};
+}
+
+/// Craig DH: joint i sits at Rx(alpha) Tx(a) Tz(d) of the one before and turns about z.
+inline pinocchio::Model PinocchioModel(const ArmDescription& arm) {
+  pinocchio::Model model;
+  model.gravity.linear(arm.gravity_mps2);
+  pinocchio::JointIndex parent = 0;
+  for (std::size_t i = 0; i < arm.dh.size(); ++i) {
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(arm.dh[i].alpha_rad, Eigen::Vector3d::UnitX()).matrix();
+    const Eigen::Vector3d p = Eigen::Vector3d(arm.dh[i].a_m, 0, 0) + R * Eigen::Vector3d(0, 0, arm.dh[i].d_m);
+    parent = model.addJoint(parent, pinocchio::JointModelRZ(), pinocchio::SE3(R, p), "j" + std::to_string(i));
+    model.appendBodyToJoint(parent, BodyInertia(arm.bodies[i]), pinocchio::SE3::Identity());
+  }
+  return model;
+}
+
+/// 10N x P: column k holds the inertial parameters that one unit of parameter k adds.
+inline Eigen::MatrixXd ParameterMap(const ArmDescription& arm) {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(10 * arm.dof(), arm.num_parameters());
+  for (int k = 0; k < arm.num_parameters(); ++k) {
+    for (const ParameterShape& shape : arm.parameters[static_cast<std::size_t>(k)].shapes)
+      map.block<10, 1>(10 * shape.body, k) += BodyInertia(shape.unit).toDynamicParameters();
+  }
+  return map;
+}
+
+}  // namespace reed::bench

@@ -1,0 +1,57 @@
+"""What one cycle can call (virtual calls are not followed: the transports are searched from their own functions). The object
+file of a cycle also holds its set-up, so not its symbols are asked but its calls:
+from the loop along every direct call in the disassembly, nothing leads to an allocator, to an exception or to a lock."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from reed_tools.paths import BUILD
+
+FORBIDDEN = re.compile(r"\b(malloc|calloc|realloc|free|aligned_alloc|posix_memalign)\b|operator (new|delete)|__cxa_(throw|allocate_exception|rethrow)|"
+                       r"_Unwind_Resume|std::__throw|pthread_(mutex|cond|rwlock)|std::mutex|\b(printf|puts|fwrite|syslog)\b")
+FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$")
+CALL = re.compile(r"\b(?:call|jmp)\s+[0-9a-f]+ <([^>+]+(?:<.*>)?[^>+]*)>$")
+ROOT_FUNCTION = re.compile(r"^reed::(Cycle<\d+, \d+>::Run|bus::DatagramTransport::(Receive|Send)|bus::(Udp|SocketCan)Transport::(Read|Write)|"
+                           r"RunWall|RunLockstep)\(")
+
+
+def calls(program: Path) -> dict[str, set[str]]:
+    graph, here = {}, None
+    text = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", str(program)], capture_output=True, text=True).stdout
+    for line in text.splitlines():
+        if found := FUNCTION.match(line):
+            here = graph.setdefault(found.group(1), set())
+        elif here is not None and (found := CALL.search(line)):
+            here.add(found.group(1).removesuffix("@plt"))
+    return graph
+
+
+def reachable(graph: dict[str, set[str]], roots: list[str]) -> set[str]:
+    seen, todo = set(), list(roots)
+    while todo:
+        name = todo.pop()
+        if name not in seen:
+            seen.add(name)
+            todo += graph.get(name, ())
+    return seen
+
+
+@pytest.fixture(scope="module")
+def firmware():
+    return calls(BUILD / "bin" / "reed_firmware")
+
+
+def test_a_cycle_reaches_no_allocator_no_exception_and_no_lock(firmware):
+    roots = [name for name in firmware if ROOT_FUNCTION.match(name)]
+    assert roots, "no Cycle::Run in the program: the name has changed"
+    found = reachable(firmware, roots)
+    assert [name for name in sorted(found) if FORBIDDEN.search(name)] == []
+    assert any("recvmmsg" in name or "sincos" in name or "sin" == name for name in found), "the graph is cut off"
+
+
+def test_the_check_sees_what_set_up_calls(firmware):
+    """The same search from main finds an allocator at once: it can fail."""
+    assert any(FORBIDDEN.search(name) for name in reachable(firmware, ["main"]))
