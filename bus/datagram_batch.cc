@@ -20,7 +20,10 @@ ReceiveBatch::ReceiveBatch() {
   }
 }
 
-int ReceiveBatch::Receive(int fd, int limit) noexcept {
+int ReceiveBatch::Receive(int fd, int limit) noexcept { return Receive(fd, limit, MSG_DONTWAIT); }
+int ReceiveBatch::ReceiveAll(int fd, int limit) noexcept { return Receive(fd, limit, 0); }
+
+int ReceiveBatch::Receive(int fd, int limit, int flags) noexcept {
   const int count = std::min(limit, kMaxBatch);
   for (int i = 0; i < count; ++i) {
     msghdr& header = headers_[static_cast<std::size_t>(i)].msg_hdr;
@@ -29,7 +32,7 @@ int ReceiveBatch::Receive(int fd, int limit) noexcept {
   }
   int received = 0;
   do {
-    received = recvmmsg(fd, headers_.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
+    received = recvmmsg(fd, headers_.data(), static_cast<unsigned>(count), flags, nullptr);
   } while (received < 0 && errno == EINTR);
   if (received < 0) return errno == EAGAIN ? 0 : -errno;
   for (int i = 0; i < received; ++i) ReadOverflow(headers_[static_cast<std::size_t>(i)].msg_hdr);

@@ -30,6 +30,9 @@ class ReceiveBatch {
 
   /// At most min(`limit`, kMaxBatch) datagrams, without waiting. Returns their number, 0 if none, or -errno.
   int Receive(int fd, int limit) noexcept;
+  /// The same with one system call for all of them: waits for `limit` datagrams, on a socket with a receive
+  /// timeout for as long as none comes within it.
+  int ReceiveAll(int fd, int limit) noexcept;
   Datagram operator[](int i) const noexcept;
 
   /// Datagrams that the kernel dropped because the receive queue was full (SO_RXQ_OVFL), since the socket was
@@ -43,6 +46,7 @@ class ReceiveBatch {
     sockaddr_in source;
     iovec vector;
   };
+  int Receive(int fd, int limit, int flags) noexcept;
   void ReadOverflow(msghdr& header) noexcept;
 
   std::array<Slot, kMaxBatch> slots_{};

@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 
 namespace reed::bus {
 namespace {
 
 /// A flood of datagrams that are not for us may cost at most so many system calls per Receive.
 constexpr int kMaxBatchesPerDrain = 16;
+
+/// With this much time left a blocking receive, whose timeout the kernel rounds to its own tick, is exact
+/// enough.
+constexpr std::int64_t kPatient_ns = 50'000'000;
+constexpr timeval kReceiveTimeout{0, 10'000};
+
+std::int64_t NowNs() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
 
 bool MeansBusLost(int error) noexcept {
   return error == ENETDOWN || error == ENODEV || error == ENXIO || error == ENETUNREACH || error == EBADF;
@@ -18,11 +30,18 @@ bool MeansBusLost(int error) noexcept {
 void DatagramTransport::Use(int receive_fd, int send_fd) noexcept {
   receive_fd_ = receive_fd;
   send_fd_ = send_fd;
+  setsockopt(receive_fd, SOL_SOCKET, SO_RCVTIMEO, &kReceiveTimeout, sizeof kReceiveTimeout);
 }
 
 int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept {
   const int enough = std::min(wanted, static_cast<int>(out.size()));
-  int count = Drain(out);  // first without waiting: late in a cycle everything is there already
+  int count = 0;
+  while (count < enough && alive_ && deadline_ns - NowNs() > kPatient_ns) {
+    count += Await(out.subspan(static_cast<std::size_t>(count)), enough - count);
+  }
+  if (count == enough && enough > 0) return count;
+  count +=
+      Drain(out.subspan(static_cast<std::size_t>(count)));  // late in a cycle everything is there already
   while (count < enough && alive_ && WaitReadable(receive_fd_, deadline_ns)) {
     count += Drain(out.subspan(static_cast<std::size_t>(count)));
   }
@@ -43,6 +62,7 @@ bool DatagramTransport::Take(Incoming incoming) noexcept {
       ++counters_.error_frames;
       break;
     case Incoming::kNotForUs:
+      own_on_the_way_ = std::max(own_on_the_way_ - 1, 0);
       break;
   }
   return false;
@@ -53,11 +73,25 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
   for (int batch = 0; batch < kMaxBatchesPerDrain && count < out.size(); ++batch) {
     const int limit = std::min(kMaxBatch, static_cast<int>(out.size() - count));
     const int got = received_.Receive(receive_fd_, limit);
-    if (got < 0) NoteError(-got);
-    for (int i = 0; i < got; ++i) {
-      if (Take(Read(received_[i], out[count]))) ++count;
-    }
+    count += static_cast<std::size_t>(Read(got, out.subspan(count)));
     if (got < limit) break;  // the queue is empty
+  }
+  return static_cast<int>(count);
+}
+
+/// One system call for all the frames that are waited for, when there is time: no look before, no poll.
+int DatagramTransport::Await(std::span<Frame> out, int wanted) noexcept {
+  const int limit = std::min({wanted + own_on_the_way_, kMaxBatch, static_cast<int>(out.size())});
+  const int got = received_.ReceiveAll(receive_fd_, limit);
+  if (got < limit) own_on_the_way_ = 0;  // silence: what is on the way would have been here
+  return Read(got, out);
+}
+
+int DatagramTransport::Read(int got, std::span<Frame> out) noexcept {
+  if (got < 0) NoteError(-got);
+  std::size_t count = 0;
+  for (int i = 0; i < got; ++i) {
+    if (Take(Read(received_[i], out[count]))) ++count;
   }
   counters_.frames_rx += count;
   counters_.overflowed = received_.overflowed();
@@ -78,6 +112,7 @@ int DatagramTransport::Send(std::span<const Frame> frames) noexcept {
       break;  // a frame that the kernel refused is late already: dropped, with those behind it
   }
   counters_.frames_tx += taken;
+  if (hears_itself_) own_on_the_way_ += static_cast<int>(taken);
   counters_.tx_refused += frames.size() - taken;
   return static_cast<int>(taken);
 }

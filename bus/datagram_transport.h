@@ -22,6 +22,8 @@ class DatagramTransport : public Transport {
  protected:
   /// Takes both sockets; they may be the same descriptor's number for a transport with one socket.
   void Use(int receive_fd, int send_fd) noexcept;
+  /// What is sent comes back to the receive socket, at once and in order.
+  void HearsItself() noexcept { hears_itself_ = true; }
 
  private:
   virtual Incoming Read(const Datagram& datagram, Frame& out) noexcept = 0;
@@ -31,11 +33,15 @@ class DatagramTransport : public Transport {
 
   bool Take(Incoming incoming) noexcept;
   int Drain(std::span<Frame> out) noexcept;
+  int Await(std::span<Frame> out, int wanted) noexcept;
+  int Read(int got, std::span<Frame> out) noexcept;
   void NoteError(int error) noexcept;
 
+  bool hears_itself_ = false;
   int receive_fd_ = -1;
   int send_fd_ = -1;
   bool alive_ = true;
+  int own_on_the_way_ = 0;  // frames sent here that the receive socket will see too
   ReceiveBatch received_;
   SendBatch sending_;
   TransportCounters counters_;

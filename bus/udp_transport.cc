@@ -94,6 +94,7 @@ UdpTransport::UdpTransport(const UdpAddress& address)
     freeifaddrs(list);
   }
   Use(in, out);
+  HearsItself();
 }
 
 bool UdpTransport::IsFromThisMachine(const sockaddr_in& source) const noexcept {
