@@ -171,9 +171,11 @@ def test_without_a_multicast_route_telemetry_is_off_with_the_fix_and_the_bus_wor
 def test_a_whole_run_by_hand_records_and_ends_by_itself(plant, tmp_path):
     plant(43309, "--clock", "lockstep")
     log, candump = tmp_path / "firmware.lcmlog", tmp_path / "bus.candump"
-    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43309), "--clock", "lockstep", "--enable", "--no-lcm",
-                        "--set", "scenario.duration_s=0.3", "--log", log, "--candump", candump, timeout=120)
-    assert status == 0, error
+    firmware = start(FIRMWARE, "--config", "press_known", "--bus", bus(43309), "--clock", "lockstep", "--enable", "--no-lcm",
+                     "--set", "scenario.duration_s=0.3", "--log", log, "--candump", candump)
+    out, error = firmware.communicate(timeout=120)
+    assert firmware.returncode == 0, error
+    assert " 0 missed" in out and " 0 heap allocations" in out
     lines = candump.read_text().splitlines()
     assert len(lines) >= 8 * 300 and " 080##" in lines[0]
     assert log.stat().st_size > 300 * 500
