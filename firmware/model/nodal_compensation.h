@@ -18,12 +18,13 @@ struct NodalCompensation {
   Eigen::Vector3d link_u;  // Δp, displacement of the tool point by the links
 };
 
-/// ξ of a spring with torque k ξ + k₃ ξ³ (k₃ ≥ 0). Newton from the linear answer converges from above,
-/// monotonically; four steps reach rounding while the cubic part is below the linear one.
+/// ξ of a spring with torque k ξ + k₃ ξ³ (k₃ ≥ 0). Newton from the linear answer converges monotonically from
+/// beyond; six steps reach rounding while the cubic torque at the linear answer is below three times the
+/// linear one.
 inline double SpringAngle(double torque, double k, double k3) {
   double xi = torque / k;
   if (k3 > 0.0) {
-    for (int step = 0; step < 4; ++step)
+    for (int step = 0; step < 6; ++step)
       xi -= (k * xi + k3 * xi * xi * xi - torque) / (k + 3.0 * k3 * xi * xi);
   }
   return xi;

@@ -1,0 +1,78 @@
+"""reed_inspect on recorded cases: reads them as they are, answers under the same names."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+CASES = Path(__file__).resolve().parents[1] / "data" / "cases"
+# How well the recorded numbers are known: C and f of the regressor cases come from differences, D from a pseudo-inverse.
+LIMITS = {"reg": 1e-6, "static": 1e-8, "compliance": 1e-9, "ctrl": 1e-8}
+INPUTS = {"q", "qd", "qdd", "dq", "q_d", "dq_d", "ddq_d", "vd", "F_d_normal", "p_hat", "eta_hat", "sigma0", "sigma1",
+          "normal", "e_f", "int_e_f", "kp", "ki", "wrench_world_tip", "wrench_world_at_tip", "self_weight_N_per_m",
+          "tip_deflection_with_joint_springs_pynite_short_member"}
+
+
+@pytest.mark.parametrize("path", sorted(CASES.glob("*.json")), ids=lambda path: path.stem)
+def test_every_answer_of_a_case_file_is_reproduced(path, inspect_program):
+    file = json.loads(path.read_text())
+    done = subprocess.run([inspect_program, "--arm", file["arm"].lower(), "--states", str(path)], text=True,
+                          capture_output=True, check=True)
+    results = json.loads(done.stdout)["cases"]
+    assert len(results) == len(file["cases"]) > 0
+    limit = LIMITS.get(path.stem.split("_")[0], 1e-10)
+    compared = 0
+    for case, result in zip(file["cases"], results):
+        inputs = INPUTS if path.stem.startswith("ctrl") else INPUTS | {"v"}
+        for name in case.keys() - inputs:
+            want, got = np.array(case[name], float), np.array(result[name], float)
+            assert got.shape == want.shape, name
+            assert np.linalg.norm(got - want) <= limit * max(np.linalg.norm(want), 1e-3), name
+            compared += 1
+    assert compared >= 2 * len(results)
+
+
+def run(inspect_program, *arguments, text=""):
+    return subprocess.run([inspect_program, *arguments], text=True, capture_output=True, input=text)
+
+
+@pytest.mark.parametrize("text, says", [
+    ("{", "not JSON"),
+    ("[]", 'list "cases"'),
+    ('{"cases": [3]}', "cases[0]"),
+    ('{"cases": [{"q": [1, 2]}]}', "cases[0].q: expected a list of 5 numbers"),
+    ('{"cases": [{"q": [0,0,0,0,0]}, {"q": [0,0,0,0,0], "qd": 1}]}', "cases[1].qd"),
+    ('{"cases": [{"q": [0,0,0,0,0], "dq": [0,0,0,0,0], "q_d": [0,0,0,0,0], "dq_d": [0,0,0,0,0], "ddq_d": [0,0,0,0,0]}]}',
+     "Kd: missing"),
+])
+def test_a_wrong_case_is_one_line_that_says_where(inspect_program, text, says):
+    done = run(inspect_program, "--arm", "a5", "--states", "-", text=text)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1 and says in done.stderr
+
+
+def test_an_unknown_arm_and_an_unreadable_file_exit_2(inspect_program, tmp_path):
+    assert run(inspect_program, "--arm", "no_such_arm", "--states", "-", text='{"cases": []}').returncode == 2
+    assert run(inspect_program, "--arm", "a5", "--states", str(tmp_path / "none.json")).returncode == 2
+    assert run(inspect_program, "--what").returncode == 2
+
+
+def test_the_tool_offset_beside_the_cases_replaces_the_arms(inspect):
+    case = {"q": [0.3, -0.4]}
+    with_arms, moved = inspect("p2", [case])[0], inspect("p2", [case], tool_offset=[0.1, 0.2, 0.3])[0]
+    T = np.array(with_arms["T"])
+    last_origin = T[:3, 3] - T[:3, :3] @ [0.4, 0.0, 0.0]
+    assert np.allclose(np.array(moved["T"])[:3, 3], last_origin + T[:3, :3] @ [0.1, 0.2, 0.3], atol=1e-14)
+
+
+@pytest.mark.parametrize("joints", range(1, 9))
+def test_every_number_of_joints_is_answered(joints, inspect, tmp_path):
+    arm = {"name": f"chain{joints}", "dh": [[0.3, 0.1 if i else 0.0, 0.2] for i in range(joints)],
+           "gravity": [0, 0, -9.81],
+           "bodies": [{"mass": 1.0, "com": [0, 0.1, 0], "inertia_about_com": np.diag([0.01, 0.01, 0.01]).tolist()}] * joints}
+    result = inspect(arm, [{"q": [0.1] * joints, "qd": [0.2] * joints}], tmp_path)[0]
+    assert np.array(result["M"]).shape == (joints, joints)
+    assert "C_links" not in result and "C_joints" not in result

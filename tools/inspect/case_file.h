@@ -1,0 +1,20 @@
+// Case files: {"cases": [{name: numbers, ...}, ...], name: numbers, ...} in, the same shape out. RT: set-up
+// only.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "tools/inspect/named_values.h"
+
+namespace reed::inspect {
+
+/// The cases in order. Numbers beside "cases" belong to every case that does not say otherwise; texts are
+/// left out. Throws CaseError.
+std::vector<NamedValues> ReadCases(std::istream& in);
+
+/// {"arm": ..., "cases": [...]}; doubles round-trip.
+void WriteCases(std::ostream& out, const std::string& arm, const std::vector<NamedValues>& cases);
+
+}  // namespace reed::inspect

@@ -1,0 +1,79 @@
+// The laws (22)-(41) of a case, by the functions that the loop calls. RT: set-up only.
+#pragma once
+
+#include "firmware/control/force_loop.h"
+#include "firmware/control/known_force.h"
+#include "firmware/control/normal_direction.h"
+#include "firmware/control/surface.h"
+#include "firmware/control/unknown_force.h"
+#include "tools/inspect/rigid_cases.h"
+
+namespace reed::inspect {
+
+/// A list per parameter of the arm, padded to the model's fixed size.
+inline model::Vec<kMaxParameters> Padded(const NamedValues& in, const std::string& name, int num_parameters) {
+  model::Vec<kMaxParameters> all = model::Vec<kMaxParameters>::Zero();
+  all.head(num_parameters) = in.Vector(name, num_parameters);
+  return all;
+}
+
+/// q dq q_d dq_d ddq_d with Kd, Lambda → v, vdot, s, Y and, where their inputs are there, both laws and
+/// v_force.
+template <int N>
+void InspectControl(const Arm<N>& arm, const NamedValues& in, NamedValues& out) {
+  constexpr int P = kMaxParameters;
+  if (!in.HasAll("dq", "q_d", "dq_d", "ddq_d")) return;
+  const int n = arm.num_parameters;
+  const model::Vec<N> K_d = in.Vector<N>("Kd"), dq = in.Vector<N>("dq");
+  model::Kinematics<N> kin;
+  model::ForwardKinematics<N>(arm, in.Vector<N>("q"), dq, kin);
+  out.SetMatrix("J_world", kin.J);
+
+  const control::Reference<N> reference{in.Vector<N>("q_d"), in.Vector<N>("dq_d"), in.Vector<N>("ddq_d")};
+  const auto aux = control::Surface<N>(reference, in.Vector<N>("Lambda"), kin.q, dq);
+  const model::Vec<N> s = control::SlidingError<N>(aux.v, dq);
+  out.SetVector("v", aux.v);
+  out.SetVector("vdot", aux.v_dot);
+  out.SetVector("s", s);
+
+  model::Regressor<N, P> regressor;
+  model::ComputeRegressor(arm, kin, aux.v, aux.v_dot, regressor);
+  const model::Vec<P> Yts = regressor.Y.transpose() * s;
+  const model::Vec<P> ones = model::Vec<P>::Ones();
+  out.SetMatrix("Y", regressor.Y, n);
+  out.SetVector("YTs", Yts, n);
+  out.SetVector("pdot_known_Gamma1", control::KnownForceUpdate<N, P>(ones, regressor.Y, s), n);
+  out.SetVector("etadot_Gamma1", control::EtaRate<P>(ones, Yts), n);
+  out.SetScalar("sigma0dot_c1", control::Sigma0Rate<N>(1.0, s));
+  out.SetScalar("sigma1dot_c1", control::Sigma1Rate<N>(1.0, s));
+
+  if (in.HasAll("eta_hat", "sigma0", "sigma1")) {
+    // The case leaves out what the law adds to the paper's: K_d s and p_0 (zero here), and has sgn for sat.
+    const model::Vec<P> p_hat =
+        control::WorstCaseParameters<P>(model::Vec<P>::Zero(), Padded(in, "eta_hat", n), control::Sign(Yts));
+    const model::Vec<N> sliding = control::SlidingTerm<N>(in.Scalar("sigma0"), in.Scalar("sigma1"),
+                                                          model::Vec<N>::Ones(), s, control::Sign(s));
+    out.SetVector("U_unknown",
+                  control::UnknownForceTorque<N>(arm.rotor_inertia, aux.v_dot, regressor.f(p_hat),
+                                                 model::Vec<N>::Zero(), s, sliding));
+  }
+  if (!in.Has("normal")) return;
+  const auto normal = control::PureNormalTranslation<N>(kin.J, in.Vector<3>("normal"));
+  out.SetVector("D_oblique", normal.D);
+  if (in.HasAll("F_d_normal", "p_hat")) {
+    const model::Vec<N> JtF_d = normal.J_n.transpose() * in.Scalar("F_d_normal");
+    out.SetVector("U_known",
+                  control::KnownForceTorque<N>(arm.rotor_inertia, aux.v_dot,
+                                               regressor.f(Padded(in, "p_hat", n)), JtF_d, K_d, s));
+  }
+  if (in.HasAll("e_f", "int_e_f", "kp", "ki")) {
+    // The filter of the force loop at rest: z is what the force error asks for.
+    const control::ForceGains gains{in.Scalar("kp"), in.Scalar("ki"), 0.0};
+    control::Auxiliary<N> force = aux;
+    control::ReplaceNormal<N>(normal, control::NormalSpeed(gains, in.Scalar("e_f"), in.Scalar("int_e_f")),
+                              0.0, force);
+    out.SetVector("v_force", force.v);
+  }
+}
+
+}  // namespace reed::inspect

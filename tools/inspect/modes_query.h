@@ -1,0 +1,28 @@
+// Frequencies and shapes as the plant's discretisation has them. RT: set-up only.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "config/schema/arm_description.h"
+
+namespace reed::inspect {
+
+/// A clamped beam from "length=...,EI=...,rhoA=...[,tip_mass=...]" (m, N·m², kg/m, kg).
+struct BeamQuery {
+  double length_m = 0.0, EI_Nm2 = 0.0, rhoA_kgpm = 0.0, tip_mass_kg = 0.0;
+};
+
+/// Throws CaseError naming the key and what is allowed.
+BeamQuery ParseBeam(const std::string& text);
+
+/// {"freq_hz": [...]}: the first `modes` bending frequencies in one plane, as many as the discretisation has.
+void WriteBeamModes(std::ostream& out, const BeamQuery& beam, int modes);
+
+/// {"arm", "q", "freq_hz", "undeformed_m", "deformed_m", "mode_shapes"}: the arm at rest under gravity with
+/// its motors locked at q (rad); lines are points from base to tool point, a shape's largest displacement
+/// is 1.
+void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vector<double>& q, int modes);
+
+}  // namespace reed::inspect
