@@ -44,7 +44,6 @@ class Cycle final : public CycleBase {
     const std::int64_t computed = clock_.NowNs();
 
     bus_.SendCommand(supervisor_.Request(), tau, snapshot);  // send
-    tau_before_ = tau;
     const std::int64_t sent = clock_.NowNs();
 
     Record(measured, decision, tau, verdict, snapshot);  // record
@@ -121,7 +120,7 @@ class Cycle final : public CycleBase {
   const strategy::Decision<N>& Control(const Measurement<N>& measured, const LoopState& loop) noexcept {
     if (!active()) strategy_.Settle(measured);
     if (loop.hold && active()) return strategy_.Repeat();
-    return strategy_.Step(measured, time_s(), active(), tau_before_,
+    return strategy_.Step(measured, time_s(), active(),
                           loop.degrade ? strategy::Effort::kReduced : strategy::Effort::kFull);
   }
 
@@ -178,8 +177,7 @@ class Cycle final : public CycleBase {
     if (supervisor_.mode() == mode::Mode::kFault && supervisor_.cycles_in_mode() >= kCyclesAfterFault)
       return CycleStatus::kFinished;
     was_active_ = was_active_ || active();
-    const bool ended =
-        (was_active_ || stop_wanted) && !active() && supervisor_.mode() != mode::Mode::kFault;
+    const bool ended = (was_active_ || stop_wanted) && !active() && supervisor_.mode() != mode::Mode::kFault;
     if (ended && supervisor_.cycles_in_mode() >= kCyclesAfterStop) return CycleStatus::kFinished;
     return CycleStatus::kRunning;
   }
@@ -195,7 +193,6 @@ class Cycle final : public CycleBase {
   mode::Supervisor supervisor_;
   double T_;
   double duration_s_;
-  model::Vec<N> tau_before_ = model::Vec<N>::Zero();
   strategy::ForceSource source_ = strategy::ForceSource::kNone;
   protect::Reason trip_ = protect::Reason::kNone;
   bool was_active_ = false;

@@ -116,6 +116,15 @@ class Rules {
            "the wall is " + ToShortText(distance) + " m away, the arm reaches " + ToShortText(reach) + " m");
   }
 
+  /// Laws that track a measured force need something that measures it.
+  void ForceIsMeasured() const {
+    using Source = ForceConfig::Source;
+    const bool needed = s_.force.source == Source::kKnown || s_.force.source == Source::kAuto;
+    if (needed && !s_.sensors.wrench)
+      Fail("force.source",
+           "known and auto need a force sensor, and sensors.wrench = false; allowed: none, unknown");
+  }
+
   void BudgetsAddUp() const {
     const double sum = s_.timing.rx_budget_us + s_.timing.compute_budget_us + s_.timing.tx_budget_us;
     const double period = 1e6 / s_.timing.rate_hz;
@@ -160,6 +169,7 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.ForceLoopIsStable();
   rules.NoChatter();
   rules.WallIsMeaningful();
+  rules.ForceIsMeasured();
   rules.BudgetsAddUp();
 }
 

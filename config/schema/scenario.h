@@ -33,6 +33,7 @@ struct DriveConfig {
 
 /// [sensors] what stands between the truth and a frame.
 struct SensorConfig {
+  bool wrench = true;                 // a wrist force sensor is fitted
   int encoder_bits = 20;              // per turn
   double velocity_filter_hz = 120.0;  // first-order low pass on the differentiated encoder
   double force_noise_N = 0.05;        // standard deviation per axis
@@ -108,7 +109,7 @@ struct ControlConfig {
   double a_force = 200.0;  // 1/s, force filter
   double normal_speed_limit_mps = 0.03;
   bool estimate_wall_stiffness = true;
-  double force_bandwidth_radps = 40.0;  // of k_p times the estimated wall stiffness (52)
+  double force_bandwidth_radps = 20.0;  // of k_p times the estimated wall stiffness (52)
   double sigma0_gain = 1.0, sigma1_gain = 5.0;  // c_0, c_1
   double sigma0_max = 3.0, sigma1_max = 0.4;
   double phi = 0.03;  // rad/s, boundary layer of sat(s/phi)

@@ -38,6 +38,7 @@ void Fields(V& v, DriveConfig& c) {
 
 template <typename V>
 void Fields(V& v, SensorConfig& c) {
+  v.Boolean("wrench", c.wrench, "a wrist force sensor is fitted");
   v.Integer("encoder_bits", c.encoder_bits, {"1", 8, 32}, "steps per turn are 2^bits");
   v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 1, 1e5},
            "first-order low pass on the differentiated encoder");

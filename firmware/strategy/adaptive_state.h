@@ -37,10 +37,10 @@ struct AdaptiveState {
   }
 
   /// Coulomb friction (49), then leak toward what was known and box.
-  void UpdateFriction(const Gains<N, P>& g, const model::Vec<N>& v, const model::Vec<N>& s,
-                      double T) noexcept {
+  void UpdateFriction(const Gains<N, P>& g, const model::Vec<N>& Gamma_c, const model::Vec<N>& v,
+                      const model::Vec<N>& s, double T) noexcept {
     const model::Vec<N> s_dz = control::DeadZone(s, g.dead_zone);
-    const model::Vec<N> rate = control::CoulombUpdate<N>(g.Gamma_c, v, g.friction_speed, s_dz);
+    const model::Vec<N> rate = control::CoulombUpdate<N>(Gamma_c, v, g.friction_speed, s_dz);
     const model::Vec<N> none = model::Vec<N>::Zero();
     kappa_hat = control::RobustStep<N>(kappa_hat, rate, g.kappa_0, g.leak_p, none, g.kappa_max, T);
   }

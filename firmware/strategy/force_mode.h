@@ -47,8 +47,9 @@ class ForceMode {
   const control::ForceState& state() const noexcept { return state_; }
   double wall_stiffness() const noexcept { return wall_.value(); }
 
-  /// f: normal force as known now, N. x: normal tip position by motor angles, m.
-  ForceDemand Step(double t_s, double f, double x) noexcept {
+  /// f: normal force as known now, N. x: normal tip position by motor angles, m. pace: share of the
+  /// bandwidth, below 1 where f comes late.
+  ForceDemand Step(double t_s, double f, double x, double pace) noexcept {
     ForceDemand demand;
     if (!profile_.Wanted(t_s)) {
       Reset();
@@ -61,10 +62,10 @@ class ForceMode {
     }
     double wanted = 0.0;  // normal speed into the wall
     if (in_contact()) {
-      wall_.Step(f, x);
+      if (pace > kPromptPace) wall_.Step(f, x);  // a late f would tell a wrong stiffness
       demand.f_d = profile_.At(t_s, contact_s_);
       demand.e_f = demand.f_d - f;
-      wanted = control::NormalSpeed(Gains(), demand.e_f, state_.e_f_integral);
+      wanted = control::NormalSpeed(Gains(pace), demand.e_f, state_.e_f_integral);
     } else {
       wanted = config_.approach_speed_mps *
                reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
@@ -82,16 +83,16 @@ class ForceMode {
   }
 
   /// (52): k_i keeps its ratio to k_p, so that k_i < a k_p holds on every wall.
-  control::ForceGains Gains() const noexcept {
-    if (!config_.schedule) return config_.gains;
-    control::ForceGains g = config_.gains;
-    g.k_p = std::clamp(config_.bandwidth_radps / wall_.value(), config_.least_k_p, config_.most_k_p);
-    g.k_i = config_.gains.k_i * g.k_p / config_.gains.k_p;
-    return g;
+  control::ForceGains Gains(double pace) const noexcept {
+    const double k_p = config_.schedule ? std::clamp(config_.bandwidth_radps / wall_.value(),
+                                                     config_.least_k_p, config_.most_k_p)
+                                        : config_.gains.k_p;
+    return {pace * k_p, pace * pace * config_.gains.k_i * k_p / config_.gains.k_p, config_.gains.a};
   }
 
  private:
   static constexpr double kNoContact = 1e12;
+  static constexpr double kPromptPace = 0.99;
   ForceModeConfig config_;
   reference::ForceProfile profile_;
   WallStiffness wall_;

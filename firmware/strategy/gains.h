@@ -18,8 +18,8 @@ struct Gains {
   double sigma0_max, sigma1_max;
   double dead_zone, leak_p, leak_sigma;
   double K_o;
-  model::Vec<N> Gamma_c, kappa_0, kappa_max;  // Coulomb friction (48), (49)
-  double friction_speed;                      // v_s, rad/s
+  model::Vec<N> Gamma_c_known, Gamma_c_unknown, kappa_0, kappa_max;  // Coulomb friction (48), (49)
+  double friction_speed;                                             // v_s, rad/s
   bool subtract_observer;
 
   Gains(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
@@ -56,7 +56,9 @@ struct Gains {
     kappa_0.setZero();
     if (!description.coulomb_Nm.empty())
       kappa_0 = c.coulomb_known * Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
-    Gamma_c = c.Gamma_friction * K_d;  // joints that are damped more learn larger torques
+    Gamma_c_known = c.Gamma_friction * K_d;  // joints that are damped more learn larger torques
+    Gamma_c_unknown =
+        c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : Gamma_c_known;  // two integrators would fight
     friction_speed = c.friction_speed_radps;
   }
 

@@ -116,11 +116,12 @@ class LawBank {
 
   static void LearnRobustKnown(const In& in, State& x) noexcept {
     x.UpdateParameters(in.gains, in.gains.Gamma_known, in.arm, in.regressor.Y, in.s, in.T);
-    x.UpdateFriction(in.gains, in.aux.v, in.s, in.T);
+    x.UpdateFriction(in.gains, in.gains.Gamma_c_known, in.aux.v, in.s, in.T);
     x.UpdateSliding(in.gains, in.s, in.T);
   }
   static void LearnRobustUnknown(const In& in, State& x) noexcept {
     x.UpdateParameters(in.gains, in.gains.Gamma_unknown, in.arm, in.regressor.Y, in.s, in.T);
+    x.UpdateFriction(in.gains, in.gains.Gamma_c_unknown, in.aux.v, in.s, in.T);
     x.UpdateSliding(in.gains, in.s, in.T);
   }
   static void LearnNothing(const In&, State&) noexcept {}

@@ -3,8 +3,9 @@
 //
 //   sensor    f = nᵀ(F − zero); the zero is the mean of 64 readings at rest, retaken when frames return to an
 //             arm that touches nothing
-//   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ while the wall
-//             is still sought, and stands still in contact without a sensor
+//   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
+//   motion,
+//             slowly while the wall is sought, and stands still in contact without a sensor
 //   at a change of source the difference of both is carried over and forgotten with kForget_s
 #pragma once
 
@@ -18,7 +19,10 @@ namespace reed::strategy {
 class NormalForce {
  public:
   NormalForce(const Eigen::Vector3d& normal, double T) noexcept
-      : normal_(normal), tare_share_(-std::expm1(-T / kTare_s)), forget_(std::exp(-T / kForget_s)) {}
+      : normal_(normal),
+        tare_share_(-std::expm1(-T / kTare_s)),
+        seek_share_(-std::expm1(-T / kSeek_s)),
+        forget_(std::exp(-T / kForget_s)) {}
 
   /// At rest and free. force: as read.
   void Settle(const Eigen::Vector3d& force, bool fresh) noexcept {
@@ -41,7 +45,10 @@ class NormalForce {
     const double by_sensor = normal_.dot(zero_.Apply(read));
     const double by_observer = normal_.dot(observed);
     if (sensor) tare_ += tare_share_ * (by_observer - by_sensor - tare_);
-    if (!sensor && !in_contact) tare_ += tare_share_ * (by_observer - tare_);
+    if (!sensor && !in_contact) {
+      const double share = source == ForceSource::kObserver ? seek_share_ : tare_share_;
+      tare_ += share * (by_observer - tare_);
+    }
     const double raw = sensor ? by_sensor : by_observer - tare_;
     carried_ *= forget_;
     if (sensor != sensor_before_ && in_contact) carried_ = f_ - raw;
@@ -51,10 +58,11 @@ class NormalForce {
   }
 
  private:
-  static constexpr double kTare_s = 0.1;    // slower than a contact, faster than the weight's change
+  static constexpr double kTare_s = 0.1;    // faster than the weight changes
+  static constexpr double kSeek_s = 1.0;    // while the wall is sought: slower than the rise of a contact
   static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
   Eigen::Vector3d normal_;
-  double tare_share_, forget_;
+  double tare_share_, seek_share_, forget_;
   ForceTare zero_;
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;

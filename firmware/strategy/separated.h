@@ -6,6 +6,9 @@
 // RT: safe. Constructor: set-up.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "firmware/arm_bus/measurement.h"
 #include "firmware/control/force_estimate.h"
 #include "firmware/control/force_loop.h"
@@ -68,22 +71,25 @@ class Separated {
         collision_(kCollisionShare * arm.torque_limit, T_),
         nominal_(model::BodiesFor<N, P>(arm, gains_.p_0)),
         nominal_viscous_(model::ViscousFriction<N, P>(arm, gains_.p_0)),
+        rate_share_(-std::expm1(-2.0 * std::numbers::pi * scenario.sensors.velocity_filter_hz * T_)),
         kappa_rate_(RateOf(path_)) {}
 
   /// One cycle. t_s since the arm became active; learn: false while the brakes hold the arm (nothing to learn
-  /// from). tau_before: torque that acted since the last cycle.
+  /// from).
   const Decision<N>& Step(const Measurement<N>& measured, double t_s, bool learn,
-                          const model::Vec<N>& tau_before, Effort effort = Effort::kFull) noexcept {
+                          Effort effort = Effort::kFull) noexcept {
     Decision<N>& d = decision_;
     model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
 
-    Observe(measured, tau_before);
+    Observe(measured);
     d.plan = path_.At(t_s);
     d.tip_plan = PlannedTip(d.plan);
     d.source = Source(measured, t_s, learn);
     d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, observer_.r()),
                              force_.in_contact());
-    d.force = learn && d.source != ForceSource::kNone ? force_.Step(t_s, d.f, normal_.dot(kin_.tip))
+    const double pace = d.source == ForceSource::kObserver ? kObserverPace : 1.0;
+    pace_ += T_ / kPaceTime_s * (pace - pace_);  // a change of source is no step of the gain
+    d.force = learn && d.source != ForceSource::kNone ? force_.Step(t_s, d.f, normal_.dot(kin_.tip), pace_)
                                                       : ForceDemand{};
     d.desired = learn ? nodal_.Step(d.plan, NodalOffset(d.force.f_d, effort)) : d.plan;  // (22)
     Aim(d, measured);
@@ -110,7 +116,9 @@ class Separated {
     normal_force_.Settle(measured.force, measured.wrench_age == 0);
     force_.Reset();
     nodal_.Reset();
-    observer_.Reset(Momentum(measured).momentum);
+    const model::MomentumModel<N> m = Momentum(measured);
+    observer_.Reset(m.momentum);
+    rate_.setZero();
     collision_.Reset(observer_.r());
   }
   bool settled() const noexcept { return normal_force_.settled(); }
@@ -178,15 +186,20 @@ class Separated {
     return m;
   }
 
-  void Observe(const Measurement<N>& measured, const model::Vec<N>& tau_before) noexcept {
+  void Observe(const Measurement<N>& measured) noexcept {
     model::MomentumModel<N> m = model::GeneralisedMomentum<N>(nominal_, kin_, arm_.gravity);
     m.momentum += arm_.rotor_inertia.cwiseProduct(measured.theta_dot);
     const model::Vec<N> friction =
         nominal_viscous_.cwiseProduct(measured.theta_dot) +
         control::CoulombTorque<N>(adaptive_.kappa_hat, measured.theta_dot, gains_.friction_speed);
-    observer_.Update(m.momentum, tau_before + m.free_rate - friction);  // (47)
+    // The measured speed is filtered in the drive, so the known rate goes through the same filter: else every
+    // change of the own torque would look like a force from outside.
+    rate_ += rate_share_ * (measured.torque + m.free_rate - friction - rate_);
+    observer_.Update(m.momentum, rate_);  // (47)
   }
 
+  static constexpr double kObserverPace = 0.3;  // of the force loop while r, 1/K_o late, is all it has
+  static constexpr double kPaceTime_s = 0.1;
   static constexpr double kCollisionShare = 0.15;  // of the torque limit
 
   const model::ArmModel<N, P>& arm_;
@@ -204,8 +217,11 @@ class Separated {
   AdaptiveState<N, P> adaptive_;
   control::MomentumObserver<N> observer_;
   CollisionDetector<N> collision_;
+  double pace_ = 1.0;
   model::Bodies<N> nominal_;
   model::Vec<N> nominal_viscous_;
+  double rate_share_;                           // of the drives' velocity filter, per cycle
+  model::Vec<N> rate_ = model::Vec<N>::Zero();  // known part of the momentum's rate, filtered, N·m
 
   model::Kinematics<N> kin_, plan_kin_;
   model::Regressor<N, P> regressor_;

@@ -29,8 +29,13 @@ class WallStiffness {
     touched_ = false;
   }
 
-  /// f: normal force, N. x: normal position of the tip by motor angles, m; falls as the arm presses.
+  /// f: normal force, N. x: normal position of the tip by motor angles, m; falls as the arm presses. An arm
+  /// that bounces moves without force: only pairs from within contact count.
   double Step(double f, double x) noexcept {
+    if (f < kTouching_N) {
+      touched_ = false;
+      return value();
+    }
     if (!touched_) {
       f_slow_ = f;
       x_slow_ = x;
@@ -51,7 +56,8 @@ class WallStiffness {
  private:
   static constexpr double kWashout_s = 0.15, kMemory_s = 0.5;
   static constexpr double kLeastMotion_m = 50e-6;  // twenty encoder steps
-  static constexpr double kPrior_m = 1e-4;         // the start counts as one reading of this motion
+  static constexpr double kTouching_N = 0.5;
+  static constexpr double kPrior_m = 1e-4;  // the start counts as one reading of this motion
   static constexpr double kSoftest = 300.0, kStiffest = 100e3;  // N/m
   double start_, washout_, memory_;
   double xx_ = 0.0, fx_ = 0.0, f_slow_ = 0.0, x_slow_ = 0.0;

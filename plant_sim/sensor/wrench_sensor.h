@@ -25,6 +25,8 @@ class WrenchSensor {
   /// truth + bias + noise, rounded to the quantum, then clamped to the range.
   WrenchReading Measure(const Eigen::Vector3d& force_N, const Eigen::Vector3d& moment_Nm) noexcept;
 
+  bool fitted() const noexcept { return config_.wrench; }
+
   /// True while no frame leaves the sensor; seconds since the drives were enabled, negative before.
   bool Lost(double since_enabled_s) const noexcept;
 

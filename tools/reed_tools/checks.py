@@ -7,7 +7,7 @@ import numpy as np
 
 from reed_tools import metrics
 from reed_tools.errors import UsageError
-from reed_tools.signals import FAULT, Signals
+from reed_tools.signals import FAULT, SOURCES, Signals
 from reed_tools.telemetry_log import Recording
 
 IMPACT_S = 0.3           # how long after first contact an impact may last
@@ -134,6 +134,15 @@ def torque_step_at_switch_percent(run: RunData):
     return 100.0 * float(steps.max())
 
 
+def source_switch_cycles(run: RunData):
+    """most cycles without a sound wrench frame when the law in charge changed away from the measured force"""
+    source, measured = run.signals.source, run.recording.tables["REED_MEASURED"]
+    known = SOURCES.index("known")
+    left = run.signals.cycle[1:][(source[:-1] == known) & (source[1:] != known)]
+    ages = measured["wrench_age"][np.isin(measured["cycle"], left)]
+    return int(ages.max()) if len(ages) else None
+
+
 def parameters_outside_box(run: RunData):
     """number of parameters whose estimate ever left its box"""
     low, high = (np.array(side) for side in zip(*run.boxes))
@@ -193,7 +202,7 @@ FIGURES = {function.__name__: function for function in (
     joint_peak_mrad_last_second, joint_rms_mrad, joint_peak_mrad, tip_rms_mm_last_second,
     tangential_tip_rms_mm_last_second, tip_rms_mm, force_rms_N_last_second, force_rms_percent_last_second,
     force_peak_N_last_second, impact_peak_N, contact_force_max_N, contact_force_max_percent_of_desired, contact_lost_ms,
-    torque_peak_percent, torque_step_at_switch_percent, parameters_outside_box, faults, missed_cycles,
+    torque_peak_percent, torque_step_at_switch_percent, source_switch_cycles, parameters_outside_box, faults, missed_cycles,
     missed_cycles_in_row, overruns, heap_allocations, page_faults, telemetry_dropped, frames_lost, crc_errors)}
 
 ALWAYS = {"name": "faults", "limit": 0}  # a run that ended in a fault never passes, whatever the scenario asks
