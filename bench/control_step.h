@@ -37,7 +37,7 @@ class ControlStep {
   const model::Vec<N>& Run(int k) noexcept {
     const std::size_t i = static_cast<std::size_t>(k) & (measured_.size() - 1);
     const double t_s = 0.5 + 0.02 * static_cast<double>(i);
-    const strategy::Decision<N>& decision = strategy_.Step(measured_[i], t_s, true, tau_);
+    const strategy::Decision<N>& decision = strategy_.Step(measured_[i], t_s, true);
     protect::Verdict verdict = limits_.Judge(measured_[i].theta, measured_[i].theta_dot, decision.f, 0, 0);
     tau_ = limits_.Apply(decision.tau_law, 0, verdict);
     return tau_;
