@@ -1,5 +1,5 @@
-// Wake-up latency of the loop's own clock: 1 kHz grid, SCHED_FIFO, pinned. `reed_bench_wake SECONDS CORE`, the
-// counterpart of cyclictest -p 80 -i 1000.
+// Wake-up latency of the loop's own clock: 1 kHz grid, SCHED_FIFO, pinned. `reed_bench_wake SECONDS CORE`,
+// the counterpart of cyclictest -p 80 -i 1000.
 #include <cstdio>
 #include <cstdlib>
 

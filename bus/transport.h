@@ -27,8 +27,8 @@ class Transport {
 
   /// Copies frames that others sent into `out`, in order of arrival, never the ones sent here.
   /// Returns once `wanted` (at most out.size()) frames are there or CLOCK_MONOTONIC passes `deadline_ns`; a
-  /// deadline in the past takes what has arrived without waiting. More than `wanted` may be returned if they are
-  /// already queued.
+  /// deadline in the past takes what has arrived without waiting. More than `wanted` may be returned if they
+  /// are already queued.
   virtual int Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept = 0;
 
   /// Sends all frames in order; returns how many the kernel took.

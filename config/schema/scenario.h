@@ -109,7 +109,7 @@ struct ControlConfig {
   double a_force = 200.0;  // 1/s, force filter
   double normal_speed_limit_mps = 0.03;
   bool estimate_wall_stiffness = true;
-  double force_bandwidth_radps = 20.0;  // of k_p times the estimated wall stiffness (52)
+  double force_bandwidth_radps = 20.0;          // of k_p times the estimated wall stiffness (52)
   double sigma0_gain = 1.0, sigma1_gain = 5.0;  // c_0, c_1
   double sigma0_max = 3.0, sigma1_max = 0.4;
   double phi = 0.03;  // rad/s, boundary layer of sat(s/phi)

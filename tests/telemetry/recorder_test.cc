@@ -249,7 +249,8 @@ int RecordOntoSmallDisk(const RecorderOptions& options, std::int64_t cycles) {
   }
   const auto events = ReadLog(options.log_path);
   if (report.log.written == 0 || report.log.lost == 0) return 2;
-  if (report.log.written + report.log.lost != 4 * cycles + cycles / 50 + cycles / 100 + 1 + cycles / 1000 * 5) return 3;
+  if (report.log.written + report.log.lost != 4 * cycles + cycles / 50 + cycles / 100 + 1 + cycles / 1000 * 5)
+    return 3;
   if (static_cast<std::int64_t>(events.size()) != report.log.written) return 4;
   const auto first = Decode<reed::measured_t>(events.front().data);
   return first.cycle == 0 ? 0 : 5;
