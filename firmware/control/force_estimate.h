@@ -14,10 +14,10 @@ namespace reed::control {
 
 template <int N>
 Eigen::Vector3d EstimateTipForce(const Mat<6, N>& J, const Vec<N>& r) noexcept {
-  constexpr double kRelativeDamping = 1e-6;  // of the mean squared singular value; a planar arm has rank 2
+  constexpr double kRankDamping = 1e-6;  // of the mean squared singular value; a planar arm has rank 2
   const Mat<3, N> J_v = J.template topRows<3>();
   Eigen::Matrix3d A = J_v * J_v.transpose();
-  A.diagonal().array() += kRelativeDamping * A.trace() / 3.0;
+  A.diagonal().array() += kRankDamping * A.trace() / 3.0;
   const Eigen::Vector3d b = J_v * r;
   return A.ldlt().solve(b);  // (50)
 }
