@@ -17,6 +17,7 @@ namespace {
 constexpr double kHoldingTorqueOverLimit = 3.0;  // of a brake, over the drive's torque limit
 constexpr double kHoldingTorque = 200.0;         // N·m, where the arm file states no torque limit
 constexpr double kSameLength = 1e-6;             // m, between a section and its Denavit-Hartenberg row
+constexpr double kSlight = 0.05;                 // of a link's mass: such a rest sits at a member's end
 constexpr double kNothing = 1e-14;               // of a mount that is an identity but for round-off
 constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
 
@@ -117,7 +118,8 @@ class Builder {
     double at = 0.0, distance = 0.0;
     for (std::size_t m = 0; m < members.size(); ++m) {
       const Vector3d from_base = members[m].base.Inverse() * rest.com;
-      const double l = std::clamp(from_base.x(), 0.0, members[m].length);
+      double l = std::clamp(from_base.x(), 0.0, members[m].length);
+      if (rest.mass < kSlight * body.mass) l = 2.0 * l < members[m].length ? 0.0 : members[m].length;
       const double d = (from_base - Vector3d(l, 0.0, 0.0)).norm();
       if (nearest < members.size() && d >= distance) continue;
       nearest = m;

@@ -1,6 +1,7 @@
 #include "plant_sim/dynamics/mass_split.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace reed::plant {
 
@@ -16,42 +17,55 @@ Eigen::Matrix4d PseudoInertia(const RigidBody& body) {
   return pseudo;
 }
 
-bool CanExist(const RigidBody& body) {
-  const Eigen::Matrix4d pseudo = PseudoInertia(body);
-  const double smallest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(pseudo, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  return body.mass >= 0.0 && smallest >= -1e-9 * pseudo.norm();
+bool CanExist(const Eigen::Matrix4d& pseudo) {
+  constexpr double kRoundOff = 1e-13;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(pseudo, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] >= -kRoundOff * pseudo.norm();
 }
 
-RigidBody Rest(const RigidBody& body, const std::vector<LinkMember>& members, double share, bool with_polar) {
-  RigidBody rest = body;
+/// The members' lines as bodies, in the link frame.
+std::vector<RigidBody> Lines(const std::vector<LinkMember>& members, double mass_share, double polar_share) {
+  std::vector<RigidBody> lines;
   for (const LinkMember& member : members) {
-    const BeamInertia line(member.length, share * member.density, with_polar ? share * member.polar : 0.0);
-    rest = Without(rest, InParent(member.base, line.AsRigidBody()));
+    const BeamInertia line(member.length, mass_share * member.density, polar_share * member.polar);
+    lines.push_back(InParent(member.base, line.AsRigidBody()));
   }
-  return rest;
+  return lines;
+}
+
+/// The largest share up to `most` that leaves a body that can exist.
+template <typename LinesOf>
+double LargestShare(const RigidBody& body, double most, LinesOf lines_of) {
+  const auto possible = [&](double share) {
+    Eigen::Matrix4d rest = PseudoInertia(body);
+    for (const RigidBody& line : lines_of(share)) rest -= PseudoInertia(line);
+    return CanExist(rest);
+  };
+  if (possible(most)) return most;
+  double lo = 0.0, hi = most;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (possible(middle) ? lo : hi) = middle;
+  }
+  return lo;
 }
 
 }  // namespace
 
 RigidBody SplitMass(const RigidBody& body, std::vector<LinkMember>& members) {
-  // A body given as a thin rod has no inertia about its axis to share.
-  const bool with_polar =
-      CanExist(Rest(body, members, 1.0, true)) || !CanExist(Rest(body, members, 1.0, false));
-  double share = 1.0;
-  if (!CanExist(Rest(body, members, share, with_polar))) {
-    double possible = 0.0, impossible = 1.0;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (possible + impossible);
-      (CanExist(Rest(body, members, middle, with_polar)) ? possible : impossible) = middle;
-    }
-    share = possible;
-  }
-  const RigidBody rest = Rest(body, members, share, with_polar);
+  if (members.empty()) return body;
+  double structure = 0.0;
+  for (const LinkMember& member : members) structure += member.density * member.length;
+  const double mass_share =
+      LargestShare(body, body.mass / structure, [&](double share) { return Lines(members, share, 0.0); });
+  const double polar_share =
+      LargestShare(body, 1.0, [&](double share) { return Lines(members, mass_share, share); });
+  RigidBody rest = body;
+  for (const RigidBody& line : Lines(members, mass_share, polar_share)) rest = Without(rest, line);
   for (LinkMember& member : members) {
-    const double polar_share = with_polar ? share : 0.0;
-    member.relative = {(1.0 - share) * member.density, (1.0 - polar_share) * member.polar};
-    member.density *= share;
+    member.relative.density = std::max(0.0, 1.0 - mass_share) * member.density;
+    member.relative.polar = (1.0 - polar_share) * member.polar;
+    member.density *= mass_share;
     member.polar *= polar_share;
   }
   return rest;

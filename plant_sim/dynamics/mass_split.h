@@ -18,8 +18,10 @@ struct LinkMember {
       relative;  // after the split: the section's material that the link's description has no mass for
 };
 
-/// Scales the members' densities down, if need be, until the rest is a body that can exist, and returns the
-/// rest: members + rest = body exactly (mass, centre of mass, inertia). Everything in the link frame.
+/// Lays as much of the body's mass evenly along the members, in proportion to their sections' densities, as
+/// leaves a rest that can exist, and returns the rest: members + rest = body exactly (mass, centre of mass,
+/// inertia). A link given as a uniform rod is all member; what is given as lumps stays in the rest.
+/// Everything in the link frame.
 RigidBody SplitMass(const RigidBody& body, std::vector<LinkMember>& members);
 
 }  // namespace reed::plant

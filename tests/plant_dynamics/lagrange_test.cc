@@ -28,7 +28,8 @@ class LagrangeTest : public testing::TestWithParam<int> {
     PlantConfig config;
     config.elements_per_link = 1 + GetParam() % 2;
     config.friction_scale = 0.0;
-    config.stiffness_scale = 1e-6;  // or deflections that matter would mean accelerations beyond finite differences
+    config.stiffness_scale =
+        1e-6;  // or deflections that matter would mean accelerations beyond finite differences
     chain_ = BuildChain(RegularArm(), config);
     equations_ = std::make_unique<EquationsOfMotion>(chain_, wall_);
     equations_->SetPayload(0.3);
