@@ -100,7 +100,7 @@ class Cycle final : public CycleBase {
     // source.
     if (source_ == strategy::ForceSource::kKnown && limits_.TooOld(measured.wrench_age))
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
-    const double force = measured.wrench_age == 0 ? measured.force.norm() : 0.0;
+    const double force = limits_.TooOld(measured.wrench_age) ? 0.0 : measured.force.norm();
     return limits_.Judge(measured.theta, measured.theta_dot, force, measured.OldestAge(),
                          measured.OldestJoint());
   }

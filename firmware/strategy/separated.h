@@ -113,7 +113,7 @@ class Separated {
 
   /// While the arm stands still and free: the force sensor's zero, the observer's start, nothing learnt.
   void Settle(const Measurement<N>& measured) noexcept {
-    normal_force_.Settle(measured.force, measured.wrench_age == 0);
+    normal_force_.Settle(measured.force, measured.wrench_age <= kUsableWrenchAge);
     force_.Reset();
     nodal_.Reset();
     const model::MomentumModel<N> m = Momentum(measured);
@@ -129,6 +129,10 @@ class Separated {
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
 
  private:
+  /// A machine that always answers a cycle late still has a sensor: a standing arm's reading does not age in
+  /// that time.
+  static constexpr int kUsableWrenchAge = 2;
+
   ForceSource Source(const Measurement<N>& measured, double t_s, bool learn) noexcept {
     const ForceSource source = source_.Step(measured.wrench_age, learn && force_.Wanted(t_s));
     if (source_.returning() && measured.wrench_age == 0 && !force_.in_contact())
