@@ -35,7 +35,7 @@ NormalDirection<N> PureNormalTranslation(const Mat<6, N>& J, const Eigen::Vector
     JtJ.diagonal().array() += epsilon;
     x = JtJ.ldlt().solve(out.J_n.transpose());
   } else {
-    Mat<6, 6> JJt = J * J.transpose();
+    Mat<6, 6> JJt = J.lazyProduct(J.transpose());  // from 8 joints on, operator* blocks through the heap
     JJt.diagonal().array() += epsilon;
     Vec<6> direction = Vec<6>::Zero();
     direction.template head<3>() = n;
