@@ -6,9 +6,8 @@
 // r also holds what the model does not know, so f̂ is good after a tare shortly before contact.  RT: safe.
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "firmware/control/surface.h"
+#include "firmware/math/positive_solver.h"
 
 namespace reed::control {
 
@@ -19,7 +18,7 @@ Eigen::Vector3d EstimateTipForce(const Mat<6, N>& J, const Vec<N>& r) noexcept {
   Eigen::Matrix3d A = J_v * J_v.transpose();
   A.diagonal().array() += kRankDamping * A.trace() / 3.0;
   const Eigen::Vector3d b = J_v * r;
-  return A.ldlt().solve(b);  // (50)
+  return math::SolvePositive<3>(A, b);  // (50)
 }
 
 }  // namespace reed::control

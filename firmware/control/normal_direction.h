@@ -7,9 +7,8 @@
 // J_n⁺ alone lets the tip drift sideways by a millimetre while it presses.  RT: safe.
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "firmware/control/surface.h"
+#include "firmware/math/positive_solver.h"
 
 namespace reed::control {
 
@@ -33,13 +32,13 @@ NormalDirection<N> PureNormalTranslation(const Mat<6, N>& J, const Eigen::Vector
   if constexpr (N < 6) {
     Mat<N, N> JtJ = J.transpose() * J;
     JtJ.diagonal().array() += epsilon;
-    x = JtJ.ldlt().solve(out.J_n.transpose());
+    x = math::SolvePositive<N>(JtJ, out.J_n.transpose());
   } else {
     Mat<6, 6> JJt = J.lazyProduct(J.transpose());  // from 8 joints on, operator* blocks through the heap
     JJt.diagonal().array() += epsilon;
     Vec<6> direction = Vec<6>::Zero();
     direction.template head<3>() = n;
-    x = J.transpose() * JJt.ldlt().solve(direction);
+    x = J.transpose() * math::SolvePositive<6>(JJt, direction);
   }
   const double gain = out.J_n * x;
   if (gain > kRelativeDamping) out.D = x / gain;  // else: the arm cannot move along n here, D = 0

@@ -5,8 +5,7 @@
 // torque τ_i, and Δp the displacement (4) of the tool point by its bending links.  RT: safe.
 #pragma once
 
-#include <Eigen/Cholesky>
-
+#include "firmware/math/positive_solver.h"
 #include "firmware/model/compliance.h"
 
 namespace reed::model {
@@ -36,7 +35,7 @@ Vec<N> DampedInverse(const Mat<6, N>& J, const Eigen::Vector3d& u, double lambda
   const Mat<3, N> J_v = J.template topRows<3>();
   Eigen::Matrix3d A = J_v * J_v.transpose();
   A.diagonal().array() += lambda * lambda;
-  const Eigen::Vector3d y = A.ldlt().solve(u);
+  const Eigen::Vector3d y = math::SolvePositive<3>(A, u);
   return J_v.transpose() * y;
 }
 

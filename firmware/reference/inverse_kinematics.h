@@ -2,12 +2,12 @@
 // what is left. Set-up only (iterates until converged).
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <functional>
 #include <stdexcept>
 #include <string>
 
+#include "firmware/math/positive_solver.h"
 #include "firmware/model/kinematics.h"
 
 namespace reed::reference {
@@ -37,9 +37,10 @@ model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vect
     const model::Mat<3, N> J_v = kin.J.template topRows<3>(), J_w = kin.J.template bottomRows<3>();
     Eigen::Matrix3d JJt = J_v * J_v.transpose();
     JJt.diagonal().array() += 1e-12;  // a planar arm cannot leave its plane: that row of J_v is zero
-    const Eigen::LDLT<Eigen::Matrix3d> position(JJt);
-    model::Vec<N> step = J_v.transpose() * position.solve(error);
-    const model::Mat<N, N> null_space = model::Mat<N, N>::Identity() - J_v.transpose() * position.solve(J_v);
+    const math::PositiveSolver<3> position(JJt);
+    model::Vec<N> step = J_v.transpose() * position.Solve(error);
+    model::Mat<N, N> null_space = model::Mat<N, N>::Identity();
+    for (int j = 0; j < N; ++j) null_space.col(j) -= J_v.transpose() * position.Solve(J_v.col(j));
     const model::Mat<3, N> A = J_w * null_space;
     // Damped: directions in which the remaining freedom hardly turns the hand are left alone.
     Eigen::Matrix3d AAt = A * A.transpose();
@@ -47,7 +48,7 @@ model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vect
     const Eigen::Vector3d turn = RotationError(R_goal, kin.R_tip()) - J_w * step;
     // Once more through the null space: of the first pass 1e-12 of a turn that cannot be made would leak into
     // the position, divided by the damping.
-    step += null_space * (A.transpose() * AAt.ldlt().solve(turn));
+    step += null_space * (A.transpose() * math::SolvePositive<3>(AAt, turn));
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep_rad) step *= kLongestStep_rad / longest;
     q += step;
