@@ -1,6 +1,5 @@
 // The control step as the cycle runs it, without bus and clock: strategy (kinematics, plan, nodal
-// compensation, regressor, law, adaptation, observer) and the last gate. Scenario press_known. Set-up, then
-// Run().
+// compensation, regressor, law, adaptation, observer) and the last gate. Set-up, then Run().
 #pragma once
 
 #include "bench/inputs.h"
@@ -19,9 +18,9 @@ class ControlStep {
         path_(Path(scenario)),
         strategy_(scenario, arm_, path_),
         limits_(Limits(scenario)) {
-    const auto noise = Inputs<N>();
-    for (std::size_t k = 0; k < noise.size(); ++k) {  // near the plan, a contact force near the wanted one
-      const control::Reference<N> plan = path_.At(0.5 + 0.02 * static_cast<double>(k));
+    const Inputs<N> noise;
+    for (int k = 0; k < kInputs; ++k) {  // near the plan, a contact force near the wanted one
+      const control::Reference<N> plan = path_.At(TimeOf(k));
       Measurement<N> m;
       m.theta = plan.theta_d + 1e-3 * noise[k].v;
       m.theta_dot = plan.theta_d_dot + 1e-2 * noise[k].qd;
@@ -35,15 +34,22 @@ class ControlStep {
 
   /// One period; k chooses the measurement.
   const model::Vec<N>& Run(int k) noexcept {
-    const std::size_t i = static_cast<std::size_t>(k) & (measured_.size() - 1);
-    const double t_s = 0.5 + 0.02 * static_cast<double>(i);
-    const strategy::Decision<N>& decision = strategy_.Step(measured_[i], t_s, true);
-    protect::Verdict verdict = limits_.Judge(measured_[i].theta, measured_[i].theta_dot, decision.f, 0, 0);
-    tau_ = limits_.Apply(decision.tau_law, 0, verdict);
+    const Measurement<N>& now = measured(k);
+    decision_ = &strategy_.Step(now, TimeOf(k % kInputs), true);
+    protect::Verdict verdict = limits_.Judge(now.theta, now.theta_dot, decision_->f, 0, 0);
+    tau_ = limits_.Apply(decision_->tau_law, 0, verdict);
     return tau_;
   }
 
+  const Measurement<N>& measured(int k) const noexcept {
+    return measured_[static_cast<std::size_t>(k % kInputs)];
+  }
+  const strategy::Decision<N>& decision() const noexcept { return *decision_; }
+  const strategy::Separated<N, P>& strategy() const noexcept { return strategy_; }
+
  private:
+  static double TimeOf(int k) noexcept { return 0.5 + 0.02 * k; }
+
   reference::JointPath<N> Path(const Scenario& scenario) const {
     const auto pose_of = [this](const model::Vec<N>& q) {
       model::Kinematics<N> kin;
@@ -71,6 +77,7 @@ class ControlStep {
   strategy::Separated<N, P> strategy_;
   protect::Limits<N> limits_;
   std::vector<Measurement<N>> measured_;
+  const strategy::Decision<N>* decision_ = nullptr;
   model::Vec<N> tau_ = model::Vec<N>::Zero();
 };
 

@@ -1,13 +1,12 @@
 // The other side: what a user would put together from Pinocchio's C++ routines. The torque regressor alone,
 // the regressor with separate reference velocity by polarisation, and a Slotine-Li step with the tool's
 // Jacobian. It has no nodal compensation, no observer and no limits.
-#include <cstdlib>
 #include <cstring>
 #include <pinocchio/algorithm/jacobian.hpp>
 
+#include "bench/chain.h"
 #include "bench/inputs.h"
 #include "bench/pinocchio_arm.h"
-#include "bench/stopwatch.h"
 #include "config/schema/arm_file.h"
 
 namespace reed::bench {
@@ -19,7 +18,7 @@ class PolarisedRegressor {
   explicit PolarisedRegressor(const ArmDescription& arm)
       : model_(PinocchioModel(arm)),
         data_(model_),
-        map_(ParameterMap(arm)),
+        map_(ParameterMap(arm).sparseView()),
         zero_(Eigen::VectorXd::Zero(arm.dof())),
         full_(arm.dof(), 10 * arm.dof()),
         Y_(arm.dof(), arm.num_parameters()) {}
@@ -49,7 +48,7 @@ class PolarisedRegressor {
   pinocchio::Data data_;
 
  private:
-  Eigen::MatrixXd map_;
+  Eigen::SparseMatrix<double> map_;
   Eigen::VectorXd zero_, sum_, difference_, q_, a_;
   Eigen::MatrixXd full_, Y_;
 };
@@ -87,25 +86,28 @@ class SlotineLi {
 };
 
 template <int N>
-void Run(const char* arm_name) {
+void Run(const Stopwatch& watch, const char* arm_name) {
   const ArmDescription arm = LoadArm(arm_name);
-  const auto inputs = Inputs<N>();
-  const auto at = [&](int k) -> const Input<N>& {
-    return inputs[static_cast<std::size_t>(k) & (inputs.size() - 1)];
-  };
-  PolarisedRegressor regressor(arm);
+  const Inputs<N> inputs;
   const std::string suffix = std::string("_") + arm_name;
-  Print(("pinocchio_torque_regressor" + suffix).c_str(),
-        Measure([&](int k) { Keep(regressor.TorqueRegressor(at(k))); }));
-  Print(("pinocchio_polarised" + suffix).c_str(), Measure([&](int k) { Keep(regressor.Y(at(k))); }));
+  PolarisedRegressor regressor(arm);
+  watch.Measure("torque_regressor" + suffix, [&](int k) { Keep(regressor.TorqueRegressor(inputs[k])); });
+  watch.Measure("polarised" + suffix, [&](int k) { Keep(regressor.Y(inputs[k])); });
   SlotineLi law(arm);
-  Print(("pinocchio_step" + suffix).c_str(), Measure([&](int k) { Keep(law.Run(at(k))); }));
+  watch.Measure("step" + suffix, [&](int k) { Keep(law.Run(inputs[k])); });
 }
 
-/// Largest difference between both programs' Y: the comparison is of the same thing, or it is worth nothing.
+template <int N>
+void Grow(const Stopwatch& watch) {
+  const Inputs<N> inputs;
+  SlotineLi law(Chain(N));
+  watch.Measure("step_" + std::to_string(N), [&](int k) { Keep(law.Run(inputs[k])); });
+}
+
+/// Both programs' Y of the first input: the comparison is of the same thing, or it is worth nothing.
 void PrintY() {
   PolarisedRegressor regressor(LoadArm("a5"));
-  const Eigen::MatrixXd& Y = regressor.Y(Inputs<5>().front());
+  const Eigen::MatrixXd& Y = regressor.Y(Inputs<5>()[0]);
   for (Eigen::Index i = 0; i < Y.size(); ++i) std::printf("%.17g\n", Y.data()[i]);
 }
 
@@ -113,17 +115,17 @@ void PrintY() {
 }  // namespace reed::bench
 
 int main(int argc, char** argv) {
+  using namespace reed::bench;  // NOLINT(google-build-using-namespace): one list of calls
   if (argc > 1 && std::strcmp(argv[1], "--print-y") == 0) {
-    reed::bench::PrintY();
+    PrintY();
     return 0;
   }
-  if (argc > 1) {
-    const auto inputs = reed::bench::Inputs<5>();
-    reed::bench::SlotineLi law(reed::LoadArm("a5"));
-    for (int k = 0, end = std::atoi(argv[1]); k < end; ++k)
-      reed::bench::Keep(law.Run(inputs[static_cast<std::size_t>(k) & (inputs.size() - 1)]));
-    return 0;
-  }
-  reed::bench::Run<5>("a5");
-  reed::bench::Run<7>("a7");
+  const Stopwatch watch(argc, argv);
+  Run<5>(watch, "a5");
+  Run<7>(watch, "a7");
+  Grow<2>(watch);
+  Grow<4>(watch);
+  Grow<8>(watch);
+  Grow<16>(watch);
+  Grow<32>(watch);
 }

@@ -40,11 +40,11 @@ int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t de
     count += Await(out.subspan(static_cast<std::size_t>(count)), enough - count);
   }
   if (count == enough && enough > 0) return count;
-  count +=
-      Drain(out.subspan(static_cast<std::size_t>(count)));  // late in a cycle everything is there already
-  while (count < enough && alive_ && WaitReadable(receive_fd_, deadline_ns)) {
-    count += Drain(out.subspan(static_cast<std::size_t>(count)));
-  }
+  bool waiting = false;
+  do {
+    waiting = count < enough && WaitReadable(receive_fd_, deadline_ns);
+    count += Drain(out.subspan(static_cast<std::size_t>(count)));  // in vain or in time: takes what is there
+  } while (waiting && alive_ && count < enough);
   return count;
 }
 
@@ -62,7 +62,6 @@ bool DatagramTransport::Take(Incoming incoming) noexcept {
       ++counters_.error_frames;
       break;
     case Incoming::kNotForUs:
-      own_on_the_way_ = std::max(own_on_the_way_ - 1, 0);
       break;
   }
   return false;
@@ -81,10 +80,8 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
 
 /// One system call for all the frames that are waited for, when there is time: no look before, no poll.
 int DatagramTransport::Await(std::span<Frame> out, int wanted) noexcept {
-  const int limit = std::min({wanted + own_on_the_way_, kMaxBatch, static_cast<int>(out.size())});
-  const int got = received_.ReceiveAll(receive_fd_, limit);
-  if (got < limit) own_on_the_way_ = 0;  // silence: what is on the way would have been here
-  return Read(got, out);
+  const int limit = std::min({wanted, kMaxBatch, static_cast<int>(out.size())});
+  return Read(received_.ReceiveAll(receive_fd_, limit), out);
 }
 
 int DatagramTransport::Read(int got, std::span<Frame> out) noexcept {
@@ -94,7 +91,8 @@ int DatagramTransport::Read(int got, std::span<Frame> out) noexcept {
     if (Take(Read(received_[i], out[count]))) ++count;
   }
   counters_.frames_rx += count;
-  counters_.overflowed = received_.overflowed();
+  const std::uint64_t lost = received_.overflowed();
+  counters_.overflowed = std::max(counters_.overflowed, lost - std::min(lost, own_dropped_));
   return static_cast<int>(count);
 }
 
@@ -112,7 +110,7 @@ int DatagramTransport::Send(std::span<const Frame> frames) noexcept {
       break;  // a frame that the kernel refused is late already: dropped, with those behind it
   }
   counters_.frames_tx += taken;
-  if (hears_itself_) own_on_the_way_ += static_cast<int>(taken);
+  if (drops_own_) own_dropped_ += taken;
   counters_.tx_refused += frames.size() - taken;
   return static_cast<int>(taken);
 }

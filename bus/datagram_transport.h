@@ -22,8 +22,8 @@ class DatagramTransport : public Transport {
  protected:
   /// Takes both sockets; they may be the same descriptor's number for a transport with one socket.
   void Use(int receive_fd, int send_fd) noexcept;
-  /// What is sent comes back to the receive socket, at once and in order.
-  void HearsItself() noexcept { hears_itself_ = true; }
+  /// The receive socket drops what is sent here, and counts it among what it lost.
+  void DropsOwn() noexcept { drops_own_ = true; }
 
  private:
   virtual Incoming Read(const Datagram& datagram, Frame& out) noexcept = 0;
@@ -37,11 +37,11 @@ class DatagramTransport : public Transport {
   int Read(int got, std::span<Frame> out) noexcept;
   void NoteError(int error) noexcept;
 
-  bool hears_itself_ = false;
   int receive_fd_ = -1;
   int send_fd_ = -1;
   bool alive_ = true;
-  int own_on_the_way_ = 0;  // frames sent here that the receive socket will see too
+  bool drops_own_ = false;
+  std::uint64_t own_dropped_ = 0;
   ReceiveBatch received_;
   SendBatch sending_;
   TransportCounters counters_;

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
+#include <linux/filter.h>
 #include <net/if.h>
 
 #include <algorithm>
@@ -53,6 +54,19 @@ ip_mreqn OnLoopback(in_addr group) {
   return request;
 }
 
+/// What leaves by `own_port` never comes back to `fd`: the kernel drops it before it is queued, so that a
+/// program is not woken by what it said itself. A kernel without such filters queues it, and Read() drops it.
+bool DropOwn(int fd, in_port_t own_port) {
+  constexpr std::uint32_t kSourcePort = 0, kNothing = 0,
+                          kEverything = 0xFFFFFFFF;  // offset in the UDP header
+  std::array<sock_filter, 4> program{{{BPF_LD | BPF_H | BPF_ABS, 0, 0, kSourcePort},
+                                      {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, ntohs(own_port)},
+                                      {BPF_RET | BPF_K, 0, 0, kNothing},
+                                      {BPF_RET | BPF_K, 0, 0, kEverything}}};
+  const sock_fprog filter{program.size(), program.data()};
+  return setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
+}
+
 }  // namespace
 
 UdpTransport::UdpTransport(const UdpAddress& address)
@@ -75,6 +89,7 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   SetOption(in, SOL_SOCKET, SO_REUSEADDR, 1, "shared address");
   SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
   SetReceiveQueue(in);
+  if (DropOwn(in, own_port_)) DropsOwn();
   if (bind(in, Generic(group), sizeof group) < 0) {
     Fail(address, "cannot bind: " + ErrnoText(), "another program owns this port, choose another");
   }
@@ -94,7 +109,6 @@ UdpTransport::UdpTransport(const UdpAddress& address)
     freeifaddrs(list);
   }
   Use(in, out);
-  HearsItself();
 }
 
 bool UdpTransport::IsFromThisMachine(const sockaddr_in& source) const noexcept {

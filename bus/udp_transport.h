@@ -1,9 +1,8 @@
 // The software bus: one CAN FD frame per UDP multicast datagram in the format of python-can's udp_multicast
 // interface, on loopback only. python-can, cantools monitor and can_logger can join. Two sockets: frames sent
-// here leave from a port of their own, which is how they are told from the others'. Loopback
-// queues them before Send returns, so the next Receive passes over them without waiting. Frames from other
-// machines are dropped. RT: safe after construction; the constructor throws std::runtime_error with one line
-// and the fix.
+// here leave from a port of their own, by which the kernel keeps them from the receive socket. Frames from
+// other machines are dropped. RT: safe after construction; the constructor throws std::runtime_error with one
+// line and the fix.
 #pragma once
 
 #include <netinet/in.h>

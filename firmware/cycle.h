@@ -43,7 +43,7 @@ class Cycle final : public CycleBase {
     const model::Vec<N> tau = Protect(decision, measured, verdict, snapshot);  // protect: the last word
     const std::int64_t computed = clock_.NowNs();
 
-    bus_.SendCommand(supervisor_.Request(), tau, snapshot);  // send
+    bus_.SendCommand(supervisor_.Request(), tau, computed - snapshot.time_ns, snapshot);  // send
     const std::int64_t sent = clock_.NowNs();
 
     Record(measured, decision, tau, verdict, snapshot);  // record

@@ -30,7 +30,7 @@ class ArmBus {
     measurement_.foreign_controller = false;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
-    Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), tap);
+    Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), 0, tap);
   }
 
   /// Takes frames until every joint has answered this cycle's SYNC, and the wrench if one came last cycle, or
@@ -39,19 +39,21 @@ class ArmBus {
   bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
     for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
       const int count = transport_.Receive(received_, Missing(), deadline_ns);
-      if (count == 0) break;  // the deadline
-      for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], tap);
+      if (count == 0) break;                   // the deadline
+      const std::int32_t at_ns = Offset(tap);  // one batch, one reading of the clock
+      for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], at_ns, tap);
       taken += count;
     }
     wrench_expected_ = wrench_heard_;
     return MissingJoints() == 0;
   }
 
-  void SendCommand(bus::DriveRequest request, const Eigen::Matrix<double, N, 1>& tau,
+  /// `at_ns`: time since the cycle's start, for the record.
+  void SendCommand(bus::DriveRequest request, const Eigen::Matrix<double, N, 1>& tau, std::int64_t at_ns,
                    telemetry::Snapshot& tap) noexcept {
     bus::CommandMessage message{cycle_, request, {}};
     for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = tau[i];
-    Send(encoder_.Command(message), tap);
+    Send(encoder_.Command(message), static_cast<std::int32_t>(at_ns), tap);
   }
 
   const Measurement<N>& measurement() const noexcept { return measurement_; }
@@ -66,13 +68,13 @@ class ArmBus {
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
 
-  void Send(const bus::Frame& frame, telemetry::Snapshot& tap) noexcept {
+  void Send(const bus::Frame& frame, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
     transport_.Send(std::span(&frame, 1));
-    tap.AddFrame(frame, telemetry::Direction::kSent, Offset(tap));
+    tap.AddFrame(frame, telemetry::Direction::kSent, at_ns);
   }
 
-  void Take(const bus::Frame& frame, telemetry::Snapshot& tap) noexcept {
-    tap.AddFrame(frame, telemetry::Direction::kReceived, Offset(tap));
+  void Take(const bus::Frame& frame, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
+    tap.AddFrame(frame, telemetry::Direction::kReceived, at_ns);
     const bus::Decoded decoded = decoder_.Decode(frame);
     switch (decoded.kind) {
       case bus::MessageKind::kJointState:

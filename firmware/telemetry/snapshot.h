@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "bus/frame.h"
@@ -117,9 +118,9 @@ enum class Direction : std::uint8_t { kReceived, kSent };
 
 /// One line of the CAN log.
 struct RecordedFrame {
-  bus::Frame frame;
-  Direction direction = Direction::kReceived;
   std::int32_t offset_ns = 0;  // from the snapshot's time_ns; not used in lockstep
+  Direction direction = Direction::kReceived;
+  bus::Frame frame;  // only the bytes that it has: behind frame.size lies what an older cycle left
 };
 
 struct Snapshot {
@@ -148,12 +149,21 @@ struct Snapshot {
     if (num_events < kMaxEvents) events[static_cast<std::size_t>(num_events++)] = event;
   }
 
+  /// Most frames are short, and every line of cache that is not written is time won.
   void AddFrame(const bus::Frame& frame, Direction direction, std::int32_t offset_ns) noexcept {
-    if (num_frames < kMaxFrames) {
-      frames[static_cast<std::size_t>(num_frames++)] = {frame, direction, offset_ns};
-    } else {
+    if (num_frames >= kMaxFrames) {
       ++frames_omitted;
+      return;
     }
+    constexpr std::size_t kShort = 16;
+    RecordedFrame& to = frames[static_cast<std::size_t>(num_frames++)];
+    to.offset_ns = offset_ns;
+    to.direction = direction;
+    to.frame.id = frame.id;
+    to.frame.size = frame.size;
+    std::memcpy(to.frame.data.data(), frame.data.data(), kShort);
+    if (frame.size > kShort)
+      std::memcpy(to.frame.data.data() + kShort, frame.data.data() + kShort, frame.data.size() - kShort);
   }
 };
 static_assert(std::is_trivially_copyable_v<Snapshot>);

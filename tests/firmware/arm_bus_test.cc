@@ -297,7 +297,7 @@ TEST_F(ArmBusTest, ABabblingBusCannotHoldTheLoop) {
 TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
   GoodCycle(0);
   Eigen::Vector3d tau(1.0, -2.0, 3.0);
-  bus_.SendCommand(bus::DriveRequest::kEnable, tau, tap_);
+  bus_.SendCommand(bus::DriveRequest::kEnable, tau, 0, tap_);
   ASSERT_EQ(tap_.num_frames, kN + 3);
   EXPECT_EQ(tap_.frames[0].direction, telemetry::Direction::kSent);
   EXPECT_EQ(tap_.frames[0].frame.id, bus::layout::kSync.id);

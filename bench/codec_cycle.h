@@ -1,14 +1,12 @@
-// The codec's share of one cycle of a5: SYNC and command out, five states and the wrench in, E2E both ways.
-// `reed_bench_codec N` runs N plain cycles instead: callgrind counts those.
-#include <cstdlib>
+// The codec's share of one cycle of a5: SYNC and command out, five states and the wrench both ways, E2E.
+#pragma once
 
 #include "bench/stopwatch.h"
 #include "bus/messages.h"
 
 namespace reed::bench {
-namespace {
 
-class Codec {
+class CodecCycle {
  public:
   void Run(int k) noexcept {
     const auto cycle = static_cast<std::uint32_t>(k);
@@ -27,14 +25,4 @@ class Codec {
   bus::Decoder decoder_;
 };
 
-}  // namespace
 }  // namespace reed::bench
-
-int main(int argc, char** argv) {
-  reed::bench::Codec codec;
-  if (argc > 1) {
-    for (int k = 0, end = std::atoi(argv[1]); k < end; ++k) codec.Run(k);
-    return 0;
-  }
-  reed::bench::Print("codec_a5", reed::bench::Measure([&](int k) { codec.Run(k); }));
-}

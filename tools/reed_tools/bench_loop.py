@@ -1,0 +1,131 @@
+"""The loop with the plant at the other end: bus cycle, lockstep speed, telemetry, system calls, highest rate."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import tomllib
+from statistics import median
+
+import numpy as np
+
+from reed_tools import bench_programs, bench_wake
+from reed_tools.bench_rows import Found, Row
+from reed_tools.paths import BUILD, ROOT, program
+from reed_tools.telemetry_log import load
+
+PORT = 46311
+RECEIVING = {"recvmmsg": "299", "ppoll": "271", "clock_nanosleep": "230", "sendmmsg": "307"}
+FAST_HZ = 4000
+
+
+def cores() -> tuple[int, int]:
+    """Of the controller and of the plant: two where the machine has them."""
+    mine = sorted(os.sched_getaffinity(0))
+    return (mine[0], mine[1]) if len(mine) > 1 else (mine[0], mine[0])
+
+
+def pinned() -> list[str]:
+    loop, plant = cores()
+    return [f"timing.cpu={loop}", f"timing.plant_cpu={plant}"]
+
+
+def timing(flight: bench_programs.Flight) -> dict[str, np.ndarray]:
+    """The firmware's own record, without the start."""
+    table = load(flight.log).tables["REED_TIMING"]
+    return {name: column[len(column) // 10:] for name, column in table.items()}
+
+
+def bus_cycle(arguments, folder) -> Found:
+    """SYNC, states, wrench, command at 1 kHz by the loop's own clock, less its compute phase, beside two bare programs that bounce
+    the bytes. At the other end is the plant program without physics: integrating is no bus time."""
+    bench_programs.build("reed_bare_bus", "reed_still_plant")
+    seconds = 2 if arguments.quick else 5
+    ours, bent, bare = [], [], []
+    for _ in range(arguments.slices):
+        bare.append(bare_cycle(seconds))
+        ours.append(bus_time(folder, seconds, plant=[str(program("reed_still_plant")), bench_programs.BUS_GROUP, str(PORT), str(cores()[1])]))
+        bent.append(bus_time(folder, seconds))
+    found = Found([Row("bus cycle through both programs, p50", median(ours), median(bare), "µs", 1.25, "bare C, the same bytes")],
+                  details={"bus_cycle_us": {"reed": ours, "flexible": bent, "bare": bare}})
+    found.notes.append(f"bus cycle with the flexible plant, whose physics comes before its answer: {median(bent):.1f} µs")
+    return found
+
+
+def bus_time(folder, seconds: int, plant: list[str] | None = None) -> float:
+    table = timing(bench_programs.fly(folder, PORT, "wall", f"scenario.duration_s={seconds}", *pinned(), plant=plant))
+    return float(np.median(table["rx_ns"] + table["tx_ns"])) * 1e-3
+
+
+def bare_cycle(seconds: int) -> float:
+    loop, plant = cores()
+    bare, bus = str(program("reed_bare_bus")), [bench_programs.BUS_GROUP, str(PORT + 1)]
+    answering = subprocess.Popen([bare, "plant", *bus, str(plant)])
+    try:
+        time.sleep(0.3)
+        lines = bench_programs.output([bare, "controller", *bus, str(loop), str(1000 * seconds), "1000"]).split()
+    finally:
+        answering.send_signal(signal.SIGTERM)
+        answering.wait()
+    return median(int(line) for line in lines) * 1e-3
+
+
+def lockstep(_arguments, folder) -> Found:
+    flight = bench_programs.fly(folder, PORT, "lockstep")
+    us = 1e6 * flight.wall_s / flight.cycles
+    mean = {phase: float(timing(flight)[f"{phase}_ns"].mean()) * 1e-3 for phase in ("rx", "compute", "tx")}
+    rest = us - sum(mean.values())
+    found = Found([Row("lockstep press_known on the flexible plant", flight.cycles * 1e-3 / flight.wall_s, None, "× real time", 8.0,
+                       less_is_better=False)])
+    found.notes.append(
+        f"a lockstep cycle of {us:.1f} µs: the loop waits {mean['rx']:.1f} µs for the plant, computes {mean['compute']:.1f}, sends "
+        f"{mean['tx']:.1f}, records and starts up {rest:.1f}; processor time per cycle: plant "
+        f"{1e6 * flight.plant_cpu_s / flight.cycles:.1f} µs, firmware {1e6 * flight.firmware_cpu_s / flight.cycles:.1f} µs")
+    found.details = {"lockstep_us": {"cycle": us, **mean, "rest": rest}}
+    return found
+
+
+def telemetry(arguments, _folder) -> Found:
+    bench_programs.build("reed_bench_telemetry")
+    with tempfile.TemporaryDirectory() as scratch:
+        ns = bench_programs.nanoseconds("reed_bench_telemetry", arguments.processes, scratch)["telemetry"]
+    return Found([Row("telemetry's cost to the loop, per cycle", ns["median_ns"] * 1e-3, None, "µs", 0.5)], details={"telemetry_ns": ns})
+
+
+def system_calls(_arguments, folder) -> Found:
+    """Counted by the kernel (ptrace) over a whole run of one second."""
+    bench_programs.build("reed_count_syscalls")
+    budget = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["cycle"]
+    found = Found()
+    for clock in ("lockstep", "wall"):
+        flight = bench_programs.fly(folder, PORT, clock, "scenario.duration_s=1", under=(str(BUILD / "bin" / "reed_count_syscalls"),))
+        threads = [json.loads(line)["calls"] for line in flight.text.splitlines() if line.startswith("{")]
+        loop = max(threads, key=lambda calls: calls.get(RECEIVING["sendmmsg"], 0))
+        per_cycle = {name: loop.get(number, 0) / flight.cycles for name, number in RECEIVING.items()}
+        found.rows.append(Row(f"system calls per cycle, {clock}", sum(per_cycle.values()), None, "", 4.0))
+        found.notes.append(f"system calls per cycle, {clock}: " + ", ".join(f"{name} {count:.2f}" for name, count in per_cycle.items())
+                           + f"; budget {budget[f'syscalls_{clock}']}")
+    return found
+
+
+def highest_rate(arguments, folder) -> Found:
+    """60 s at 4 kHz in `wall`. A real wire is too slow for that: it is the compute budget that is tried."""
+    if arguments.quick:
+        return Found(notes=["the highest rate takes two minutes: left out with --quick"])
+    seconds = 60
+    flight = bench_programs.fly(folder, PORT, "wall", f"scenario.duration_s={seconds}", f"timing.rate_hz={FAST_HZ}",
+                                "timing.rx_budget_us=130", "timing.compute_budget_us=60", "timing.tx_budget_us=60",
+                                "timing.max_missed_in_row=200", "scenario.allow_wire_overload=true", *pinned())
+    missed = int(load(flight.log).tables["REED_TIMING"]["missed"][-1])
+    period_us = 1e6 / FAST_HZ
+    found, stalls = Found(), None
+    if shutil.which("cyclictest"):
+        bins = bench_wake.cyclictest(seconds, interval_us=int(period_us))
+        stalls = sum(count * int(us // period_us) for us, count in bins)
+    else:
+        found.notes.append(bench_wake.HOW_TO_GET.format("the highest rate"))
+    found.rows.append(Row(f"missed cycles in {seconds} s at {FAST_HZ} Hz", missed, stalls, "", 1.0, "cyclictest's missed periods"))
+    return found

@@ -1,0 +1,58 @@
+"""The picture of tools/reed bench: every ratio beside its aim, and the growth with the joints."""
+
+from pathlib import Path
+
+from reed_tools.bench_rows import Found
+
+
+def draw(found: Found, machine: str, target: Path) -> bool:
+    compared = [row for row in found.rows if row.ratio is not None and row.ratio != float("inf")]
+    growth = found.details.get("growth_ns")
+    if not compared and not growth:
+        return False
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    from reed_tools.plots import STYLE
+
+    panels = [(ratios, compared)] * bool(compared) + [(grown, growth)] * bool(growth)
+    heights = [0.36 * len(compared) + 0.9] * bool(compared) + [3.2] * bool(growth)
+    with pyplot.rc_context(STYLE):
+        figure, axes = pyplot.subplots(len(panels), 1, figsize=(7.4, sum(heights) + 0.5), squeeze=False, layout="constrained",
+                                       height_ratios=heights)
+        for axis, (panel, data) in zip(axes[:, 0], panels):
+            panel(axis, data)
+        figure.suptitle(machine, fontsize=8, x=0.01, ha="left")
+        figure.savefig(target)
+        pyplot.close(figure)
+    return True
+
+
+def ratios(axis, rows) -> None:
+    """Green keeps its aim, red does not; the black mark is the aim."""
+    names = [f"{row.what}\nagainst {row.other}" for row in rows]
+    colours = ["#009E73" if row.ok else "#D55E00" if row.ok is False else "0.6" for row in rows]
+    axis.barh(names, [row.ratio for row in rows], color=colours, height=0.6)
+    for k, row in enumerate(rows):
+        if row.aim is not None:
+            axis.plot([row.aim, row.aim], [k - 0.4, k + 0.4], color="black", linewidth=2)
+        axis.annotate(f" {row.ratio:.2f}", (max(row.ratio, row.aim or 0), k), va="center", fontsize=8)
+    axis.invert_yaxis()
+    axis.tick_params(axis="y", labelsize=7)
+    axis.set_xlim(0, 1.12 * max(max(row.ratio, row.aim or 0) for row in rows))
+    axis.set_xlabel("Reed / other side; black: aim")
+
+
+def grown(axis, growth) -> None:
+    from reed_tools.bench_steps import exponent
+
+    for name, label, style in (("reed", "Reed", "o-"), ("pinocchio", "Slotine-Li from Pinocchio", "s--")):
+        if name in growth:
+            slope = exponent(dict(zip(growth["joints"], growth[name])))
+            axis.loglog(growth["joints"], [ns / 1e3 for ns in growth[name]], style, label=f"{label}: exponent {slope:.2f}")
+    axis.set_xticks(growth["joints"], [str(n) for n in growth["joints"]])
+    axis.minorticks_off()
+    axis.set_xlabel("joints")
+    axis.set_ylabel("one control step [µs]")
+    axis.legend()
