@@ -1,11 +1,12 @@
 // How stiff the wall is as the motors feel it, and the force gain that fits. RT: safe.
 //
-//   k̂_e = −Σ f' x' / Σ x'²               (51)     N/m; x' , f': normal tip position from motor angles and
-//   normal
-//                                                 force, both without what changes slower than kWashout_s
-//   k_p  = ω_f / k̂_e, within bounds       (52)     m/(s·N): the loop k_p k̂_e then has the same speed on every
-//   wall
+//   k̂_e = √(Σ f'² / Σ x'²)             (51)   N/m
+//   k_p  = ω_f / k̂_e, within bounds     (52)   m/(s·N): the loop k_p k̂_e is as fast on every wall
 //
+// x', f': normal tip position by motor angles and normal force, less what changes slower than kWashout_s.
+//
+// Magnitudes and no correlation: an arm that begins to bounce swings against its force, which would read as a
+// wall without stiffness and raise the gain that makes it bounce.
 // The arm's own 7-12 kN/m are in series with the wall and part of k̂_e: it is what the loop closes over. Sums
 // are forgotten with kMemory_s of motion; readings that moved less than kLeastMotion_m teach nothing.
 #pragma once
@@ -25,7 +26,7 @@ class WallStiffness {
 
   void Reset() noexcept {
     xx_ = kPrior_m * kPrior_m;
-    fx_ = start_ * xx_;
+    ff_ = start_ * start_ * xx_;
     touched_ = false;
   }
 
@@ -46,12 +47,12 @@ class WallStiffness {
     const double df = f - f_slow_, dx = x - x_slow_;
     if (std::abs(dx) > kLeastMotion_m) {
       xx_ = memory_ * xx_ + dx * dx;
-      fx_ = memory_ * fx_ - df * dx;
+      ff_ = memory_ * ff_ + df * df;
     }
     return value();
   }
 
-  double value() const noexcept { return std::clamp(fx_ / xx_, kSoftest, kStiffest); }
+  double value() const noexcept { return std::clamp(std::sqrt(ff_ / xx_), kSoftest, kStiffest); }
 
  private:
   static constexpr double kWashout_s = 0.15, kMemory_s = 0.5;
@@ -60,7 +61,7 @@ class WallStiffness {
   static constexpr double kPrior_m = 1e-4;  // the start counts as one reading of this motion
   static constexpr double kSoftest = 300.0, kStiffest = 100e3;  // N/m
   double start_, washout_, memory_;
-  double xx_ = 0.0, fx_ = 0.0, f_slow_ = 0.0, x_slow_ = 0.0;
+  double xx_ = 0.0, ff_ = 0.0, f_slow_ = 0.0, x_slow_ = 0.0;
   bool touched_ = false;
 };
 
