@@ -1,4 +1,4 @@
-// ArmInspector for N joints: puts together what the parts below compute. Included by the joints_*.cc only,
+// ArmInspector for N joints: puts together what the parts below compute. Included by joints.cc.in only,
 // which instantiate it, so that the recursions are compiled once per number of joints. RT: set-up only.
 #pragma once
 

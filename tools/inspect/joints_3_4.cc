@@ -1,8 +1,0 @@
-#include "tools/inspect/arm_inspector_for.h"
-
-namespace reed::inspect {
-
-template std::unique_ptr<ArmInspector> MakeInspectorFor<3>(const ArmDescription& arm);
-template std::unique_ptr<ArmInspector> MakeInspectorFor<4>(const ArmDescription& arm);
-
-}  // namespace reed::inspect
