@@ -1,0 +1,103 @@
+// Force mode against a spring wall in virtual time: seek, latch, track, and no wind-up behind the speed
+// limit.
+#include "firmware/strategy/force_mode.h"
+
+#include <gtest/gtest.h>
+
+namespace reed::strategy {
+namespace {
+
+constexpr double kT = 1e-3;
+
+ForceModeConfig Config() {
+  ForceModeConfig config;
+  config.gains = {4e-3, 30e-3, 200.0};
+  return config;
+}
+
+reference::ForceProfile Press(double newton) {
+  ForceConfig config;
+  config.desired_N = newton;
+  config.start_s = 0.0;
+  config.ramp_s = 0.3;
+  return reference::ForceProfile(config);
+}
+
+/// A tip that moves exactly as asked (s = 0), in front of a wall of stiffness k_e at x = 0.
+struct Tip {
+  double x = 2e-3, k_e = 5e3;
+  double force() const { return x < 0.0 ? -k_e * x : 0.0; }
+  void Move(const ForceDemand& demand) { x -= kT * demand.z; }
+};
+
+TEST(ForceMode, SeeksTheWallLatchesOnceAndTracksOnWallsFromOneToFortyKilonewtonPerMetre) {
+  for (const double k_e : {1e3, 5e3, 10e3, 20e3, 40e3}) {
+    ForceModeConfig config = Config();
+    config.schedule = true;
+    config.bandwidth_radps = 40.0;
+    ForceMode mode(config, Press(8.0), kT);
+    Tip tip;
+    tip.k_e = k_e;
+    int latched = 0;
+    double largest = 0.0;
+    ForceDemand demand;
+    for (int k = 0; k < 3000; ++k) {
+      demand = mode.Step(kT * k, tip.force(), tip.x, 1.0);
+      latched += demand.latched_now ? 1 : 0;
+      tip.Move(demand);
+      largest = std::max(largest, tip.force());
+    }
+    EXPECT_EQ(latched, 1) << k_e;
+    EXPECT_NEAR(tip.force(), 8.0, 0.05) << k_e;
+    EXPECT_LT(largest, 12.0) << k_e;
+  }
+}
+
+TEST(ForceMode, StaysLatchedWhenTheTipBounces) {
+  ForceMode mode(Config(), Press(8.0), kT);
+  mode.Step(0.0, 5.0, 0.0, 1.0);
+  ASSERT_TRUE(mode.in_contact());
+  const ForceDemand off = mode.Step(kT, 0.0, 1e-3, 1.0);
+  EXPECT_TRUE(mode.in_contact());
+  EXPECT_FALSE(off.latched_now);
+}
+
+TEST(ForceMode, DoesNotWindUpBehindTheSpeedLimit) {
+  // The wall is gone for two seconds: the limit acts. Once it is back, the overshoot is that of a short
+  // absence.
+  const auto largest_after = [](int absent_cycles) {
+    ForceModeConfig config = Config();
+    config.speed_limit_mps = 0.02;
+    ForceMode mode(config, Press(8.0), kT);
+    for (int k = 0; k < 300; ++k) mode.Step(0.001 * k, 8.0, 0.0, 1.0);
+    bool limited = false;
+    for (int k = 0; k < absent_cycles; ++k) limited |= mode.Step(0.5, 0.0, 0.0, 1.0).speed_limited;
+    EXPECT_TRUE(limited);
+    return mode.state().e_f_integral;
+  };
+  EXPECT_NEAR(largest_after(2000), largest_after(200), 1e-9);
+}
+
+TEST(ForceMode, ItsGainKeepsTheLoopsSpeedOnEveryWallAndTheStabilityRule) {
+  ForceModeConfig config = Config();
+  config.schedule = true;
+  for (const double k_e : {1e3, 5e3, 20e3}) {
+    ForceMode mode(config, Press(8.0), kT);
+    for (int k = 0; k < 600; ++k) {
+      const double depth = 8.0 / k_e * std::min(1.0, k / 300.0) + 1e-3 * std::sin(0.02 * k) * 5e3 / k_e;
+      mode.Step(kT * k, k_e * depth + 1.5, -depth, 1.0);
+    }
+    const control::ForceGains g = mode.Gains(1.0);
+    EXPECT_LE(g.k_p * k_e, 1.1 * config.bandwidth_radps);
+    EXPECT_LT(g.k_i, g.a * g.k_p);
+    EXPECT_NEAR(mode.Gains(0.5).k_p, 0.5 * g.k_p, 1e-12) << "slower where the force comes late";
+  }
+}
+
+TEST(ForceMode, WithoutAWishAsksForNothing) {
+  ForceMode mode(Config(), Press(0.0), kT);
+  EXPECT_FALSE(mode.Step(1.0, 20.0, 0.0, 1.0).active);
+}
+
+}  // namespace
+}  // namespace reed::strategy

@@ -1,0 +1,85 @@
+// The separation (Fig. 7) cycle by cycle, without an arm: who is in charge, and no jump where one takes over.
+#include "firmware/strategy/force_source.h"
+
+#include <gtest/gtest.h>
+
+#include "firmware/strategy/normal_force.h"
+
+namespace reed::strategy {
+namespace {
+
+using Source = ForceConfig::Source;
+constexpr double kT = 1e-3;
+const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+
+TEST(SourceSelector, LosesTheSensorInTheThirdCycleWithoutAFrameAndNotBefore) {
+  SourceSelector source(Source::kAuto);
+  EXPECT_EQ(source.Step(0, true), ForceSource::kKnown);
+  EXPECT_EQ(source.Step(1, true), ForceSource::kKnown);
+  EXPECT_EQ(source.Step(2, true), ForceSource::kKnown);
+  EXPECT_EQ(source.Step(3, true), ForceSource::kObserver);
+}
+
+TEST(SourceSelector, WithoutAWishToPressTheUnknownForceLawTakesOver) {
+  SourceSelector source(Source::kAuto);
+  EXPECT_EQ(source.Step(3, false), ForceSource::kUnknown);
+}
+
+TEST(SourceSelector, ComesBackOnlyAfterAHundredSoundFramesInARow) {
+  SourceSelector source(Source::kAuto);
+  source.Step(3, true);
+  for (int k = 1; k < SourceSelector::kReturnCycles; ++k)
+    ASSERT_EQ(source.Step(0, true), ForceSource::kObserver);
+  source.Step(1, true);  // one frame is missing: the count starts over
+  for (int k = 1; k < SourceSelector::kReturnCycles; ++k)
+    ASSERT_EQ(source.Step(0, true), ForceSource::kObserver);
+  EXPECT_EQ(source.Step(0, true), ForceSource::kKnown);
+}
+
+TEST(SourceSelector, DoesWhatTheScenarioSaysInEveryOtherMode) {
+  EXPECT_EQ(SourceSelector(Source::kNone).Step(0, true), ForceSource::kNone);
+  EXPECT_EQ(SourceSelector(Source::kKnown).Step(50, true), ForceSource::kKnown);
+  EXPECT_EQ(SourceSelector(Source::kUnknown).Step(0, false), ForceSource::kUnknown);
+  EXPECT_EQ(SourceSelector(Source::kUnknown).Step(0, true), ForceSource::kObserver);
+}
+
+TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewton) {
+  NormalForce force(kUp, kT);
+  for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d(0.0, 0.0, 0.4), true);
+  const Eigen::Vector3d read(0.0, 0.0, 8.4), observed(0.0, 0.0, 11.0);
+  double before = 0.0;
+  for (int k = 0; k < 1000; ++k) before = force.Step(ForceSource::kKnown, read, observed, true);
+  EXPECT_NEAR(before, 8.0, 1e-12);
+  const double lost = force.Step(ForceSource::kObserver, read, observed + 0.2 * kUp, true);
+  EXPECT_NEAR(lost, before, 1e-9) << "what the observer sees differently is carried over";
+  double held = lost;
+  for (int k = 0; k < 3000; ++k) held = force.Step(ForceSource::kObserver, read, observed + 0.2 * kUp, true);
+  EXPECT_NEAR(held, 8.2, 1e-3) << "and forgotten";
+  EXPECT_NEAR(force.Step(ForceSource::kKnown, read, observed, true), held, 1e-9);
+}
+
+TEST(NormalForce, AConstantAndASaturatedReadingAreReadings) {
+  NormalForce force(kUp, kT);
+  for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d::Zero(), true);
+  for (int k = 0; k < 500; ++k)
+    EXPECT_EQ(force.Step(ForceSource::kKnown, 200.0 * kUp, Eigen::Vector3d::Zero(), true), 200.0);
+}
+
+TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
+  NormalForce force(kUp, kT);
+  for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
+  for (int k = 1; k <= SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k);
+  EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 0.0, 1e-12);
+}
+
+TEST(NormalForce, TheObserversTareFollowsTheFreeArmButNotTheRiseOfAContact) {
+  NormalForce force(kUp, kT);
+  for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false);
+  EXPECT_NEAR(force.Step(ForceSource::kObserver, kUp, -4.0 * kUp, false), 0.0, 1e-3);
+  double f = 0.0;
+  for (int k = 0; k < 100; ++k) f = force.Step(ForceSource::kObserver, kUp, (-4.0 + 0.04 * k) * kUp, false);
+  EXPECT_GT(f, 3.5);
+}
+
+}  // namespace
+}  // namespace reed::strategy
