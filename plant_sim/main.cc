@@ -20,7 +20,7 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::int64_t kStopCheck_ns = 50'000'000;
+constexpr std::int64_t kStopCheck_ns = 60'000'000;
 
 void Say(const Options& options, const std::string& line) {
   if (options.quiet) return;

@@ -13,7 +13,7 @@ Endpoint::Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody&
       port_(transport) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {
-  const auto incoming = port_.Receive(NextWork(deadline_ns));
+  const auto incoming = port_.Receive(deadline_ns);
   if (!port_.alive()) {
     Fail(Outcome::kBusLost, "the bus is lost: its interface went away");
     return false;

@@ -17,8 +17,8 @@ class Endpoint {
   Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder);
   virtual ~Endpoint() = default;
 
-  /// Waits for frames until `deadline_ns` (CLOCK_MONOTONIC) or until the clock has work, whichever is first,
-  /// and does what they ask. True when any frame was of use.
+  /// Waits for frames until `deadline_ns` (CLOCK_MONOTONIC) and does what they ask. True when any frame was
+  /// of use.
   bool Poll(std::int64_t deadline_ns);
 
   Outcome outcome() const noexcept { return outcome_; }
@@ -29,7 +29,6 @@ class Endpoint {
   std::uint64_t rejected() const noexcept { return port_.rejected() + refused_commands_; }
 
  protected:
-  virtual std::int64_t NextWork(std::int64_t deadline_ns) const noexcept = 0;
   virtual void Handle(std::span<const Incoming> incoming) = 0;
 
   /// Common to both clocks: layout check, restart, stamp. False: this SYNC must not be answered.

@@ -18,7 +18,6 @@ class LockstepEndpoint final : public Endpoint {
   LockstepEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder);
 
  private:
-  std::int64_t NextWork(std::int64_t deadline_ns) const noexcept override { return deadline_ns; }
   void Handle(std::span<const Incoming> incoming) override;
   void OnSync(const Incoming& sync);
   void OnCommand(const bus::CommandMessage& command);

@@ -19,29 +19,27 @@ WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, 
       clock_(std::move(clock)),
       max_step_ns_(std::max<std::int64_t>(1, std::llround(scenario.plant.max_step_s * 1e9))) {}
 
-std::int64_t WallEndpoint::NextWork(std::int64_t deadline_ns) const noexcept {
-  return syncs() == 0 ? deadline_ns : std::min(deadline_ns, integrated_ns_ + max_step_ns_);
-}
-
 /// The silence of the controller is judged by what has arrived: if this process itself was kept from running
 /// while commands came in, real drives would have seen them in time.
 void WallEndpoint::Handle(std::span<const Incoming> incoming) {
   const bool command_waits = std::any_of(incoming.begin(), incoming.end(), [](const Incoming& in) {
     return in.kind == Incoming::Kind::kCommand;
   });
-  if (syncs() > 0) CatchUp(clock_.monotonic_ns(), command_waits);
+  const std::int64_t now_ns = clock_.monotonic_ns();
+  if (syncs() > 0) CatchUp(now_ns, command_waits);
   for (const Incoming& in : incoming) {
     if (outcome() != Outcome::kRunning) return;
     if (in.kind == Incoming::Kind::kSync) {
-      OnSync(in);
+      OnSync(in, now_ns);
     } else {
       OnCommand(in.command);
     }
   }
 }
 
-void WallEndpoint::OnSync(const Incoming& sync) {
-  if (!Accept(sync, clock_.realtime_us())) return;
+void WallEndpoint::OnSync(const Incoming& sync, std::int64_t now_ns) {
+  if (sync.new_controller) real_minus_monotonic_us_ = clock_.realtime_us() - now_ns / 1000;
+  if (!Accept(sync, real_minus_monotonic_us_ + now_ns / 1000)) return;
   if (sync.new_controller) integrated_ns_ = clock_.monotonic_ns();
   cycle_ = sync.sync.cycle;
   Sample(cycle_);

@@ -8,9 +8,8 @@
 
 namespace reed::plant {
 
-/// Asks for SCHED_FIFO one below the controller's priority (its loop must never wait for the simulation), for
-/// timing.plant_cpu, and for locked memory, for the calling thread. Returns one line, with the fix, for each
-/// thing that was not granted.
+/// Asks for SCHED_FIFO with the controller's priority, for timing.plant_cpu, and for locked memory, for the
+/// calling thread. Returns one line, with the fix, for each thing that was not granted.
 std::vector<std::string> AskForRealtime(const TimingConfig& timing);
 
 }  // namespace reed::plant

@@ -33,11 +33,11 @@ def run(folder, *argv, bus=f"udp:239.74.163.2:{UDP_PORT}"):
     return json.loads((folder / "summary.json").read_text())
 
 
-def on_can(script, realtime=False):
+def on_can(script):
     """Runs a shell script where vcan0 is: here if the kernel has it, else in the small VM. Never skips."""
     command = ["bash", "-ec", script]
     native = bus_choice.vcan_ready(bus_choice.VCAN)
-    done = subprocess.run(command if native else vm.command(command, realtime=realtime), env=ENVIRONMENT, capture_output=True, text=True, timeout=400)
+    done = subprocess.run(command if native else vm.command(command), env=ENVIRONMENT, capture_output=True, text=True, timeout=400)
     assert done.returncode in (0, 1), done.stdout + done.stderr
 
 
@@ -124,14 +124,20 @@ def test_cantools_reads_the_numbers_that_the_firmware_used(can_run):
     assert compared > 5000
 
 
-def test_wall_clock_run_on_socketcan_ends_in_order_and_says_what_it_measured(tmp_path):
-    """Whether the small VM's one CPU keeps up at 1 kHz is the machine's business: seen here is that nothing is lost either way."""
-    budget = [word for phase, us in (("rx", 800), ("compute", 100), ("tx", 100)) for word in ("--set", f"timing.{phase}_budget_us={us}")]
-    on_can(f"{' '.join(reed('run', '--bus', 'socketcan:vcan0', '--clock', 'wall', '--duration', '2', *budget, '--out', tmp_path))}", realtime=True)
-    summary = json.loads((tmp_path / "summary.json").read_text())
-    assert [m["mode"] for m in summary["modes"]][:3] == ["off", "ready", "active"]
-    assert summary["bus"]["kind"] == "socketcan" and summary["bus"]["frames_rx"] > 0
-    assert summary["timing_us"]["wake"] is not None and summary["loop"]["heap_allocations"] == 0
+def test_wall_clock_run_on_socketcan_ends_without_a_fault_and_says_what_it_measured(tmp_path):
+    """In the small VM two programs share one CPU that the host takes away now and then, and a stall of 20 cycles rightly
+    stops an arm: three runs in a row that meet one are no accident."""
+    bus = "socketcan:vcan0" if bus_choice.vcan_ready(bus_choice.VCAN) else "vm"
+    for attempt in range(3):
+        summary = run(tmp_path / str(attempt), "--clock", "wall", "--duration", "2", bus=bus)
+        assert summary["bus"]["kind"] == "socketcan" and summary["bus"]["frames_rx"] > 0
+        assert summary["timing_us"]["wake"] is not None and summary["loop"]["heap_allocations"] == 0
+        modes = [change["mode"] for change in summary["modes"]]
+        assert modes[:3] == ["off", "ready", "active"]
+        if "fault" not in modes:
+            assert summary["windows"][-1]["force_rms_N"] is not None
+            return
+    pytest.fail(f"every run ended in a fault: {summary['modes']}")
 
 
 def test_bus_vm_is_the_same_run_with_its_folder_outside(udp_run, tmp_path):

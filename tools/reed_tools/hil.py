@@ -27,6 +27,7 @@ class Plan:
     clock: str
     out: str
     most_cycles: int  # more than the scenario and its start can need
+    lcm: bool = True  # publish on the LCM network too
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -50,7 +51,7 @@ def die_with_parent() -> None:
 
 def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.Popen:
     command = [program, "--config", plan.config, "--bus", plan.bus, "--clock", plan.clock,
-               "--log", str(plan.log(name)), *extra]
+               "--log", str(plan.log(name)), *([] if plan.lcm else ["--no-lcm"]), *extra]
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,

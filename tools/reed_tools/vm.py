@@ -25,7 +25,7 @@ def command(inner: list[str], time_limit_s: float | None = None, realtime: bool 
 
 def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
     """hil.run_pair inside the VM, with the run folder outside."""
-    inner = replace(plan, bus=BUS)
+    inner = replace(plan, bus=BUS, lcm=False)  # the VM's network ends in the VM: nobody could listen
     outcome_file = Path(plan.out) / "outcome.json"
     outcome_file.unlink(missing_ok=True)
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
