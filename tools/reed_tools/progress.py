@@ -11,9 +11,21 @@ def shown(scenario: str, duration_s: float):
     """Yields on_progress(mode, t_s)."""
     if sys.stdout.isatty():
         with bar(scenario, duration_s) as update:
-            yield update
+            yield never_back(update)
     else:
-        yield lines(duration_s)
+        yield never_back(lines(duration_s))
+
+
+def never_back(update):
+    """The scenario's time is 0 again once the arm is no longer active; what was reached stays shown."""
+    reached = 0.0
+
+    def forward(mode: int, t_s: float) -> None:
+        nonlocal reached
+        reached = max(reached, t_s)
+        update(mode, reached)
+
+    return forward
 
 
 @contextmanager

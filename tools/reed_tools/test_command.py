@@ -1,7 +1,7 @@
 """tools/reed test: every test there is. The bootstrap has built everything before this starts.
 
 A filter selects by name: FILTER… runs every test whose name contains one of them, and the stages of that name
-(layout, tidy, asan, ubsan, tsan). Without a filter clang-tidy reads the files that changed last; `test tidy` reads all."""
+(layout, tidy, asan, tsan). Without a filter clang-tidy reads the files that changed last; `test tidy` reads all."""
 
 import os
 import subprocess
@@ -14,7 +14,7 @@ from reed_tools.test_stages import Stage, all_stages
 
 def add_arguments(parser) -> None:
     parser.add_argument("filters", nargs="*", metavar="FILTER",
-                        help="only tests whose name contains one of these, or a stage: layout, tidy, asan, ubsan, tsan")
+                        help="only tests whose name contains one of these, or a stage: layout, tidy, asan, tsan")
 
 
 def run(arguments) -> int:
