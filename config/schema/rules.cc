@@ -25,9 +25,8 @@ class Rules {
       if (leg.kind == ReferenceLeg::Kind::kJoint) PerJoint(key + "to_rad", leg.to_rad, true);
       if (leg.kind == ReferenceLeg::Kind::kSine) PerJoint(key + "amplitude_rad", leg.amplitude_rad, true);
     }
-    if (!s_.control.p_initial.empty() && s_.control.p_initial.size() != s_.arm.parameters.size())
-      Fail("control.p_initial", std::to_string(s_.control.p_initial.size()) + " numbers for " +
-                                    std::to_string(s_.arm.parameters.size()) + " parameters");
+    PerParameter("control.p_initial", s_.control.p_initial);
+    PerParameter("plant.p_true", s_.plant.p_true);
   }
 
   /// A run needs what a drawing of the arm does not: motors, limits, stiffness.
@@ -55,13 +54,9 @@ class Rules {
     }
   }
 
-  void BoxHoldsStart() const {
-    for (std::size_t k = 0; k < s_.control.p_initial.size(); ++k) {
-      const StructuralParameter& p = s_.arm.parameters[k];
-      if (s_.control.p_initial[k] < p.lo || s_.control.p_initial[k] > p.hi)
-        Fail("control.p_initial", p.name + ": start " + ToText(s_.control.p_initial[k]) +
-                                      " lies outside the box " + ToText(p.lo) + " ... " + ToText(p.hi));
-    }
+  void BoxHoldsStartAndTruth() const {
+    InBox("control.p_initial", "start", s_.control.p_initial);
+    InBox("plant.p_true", "truth", s_.plant.p_true);
   }
 
   void LawIsKnown() const {
@@ -148,6 +143,19 @@ class Rules {
     if (!list.empty() && list.size() != s_.arm.dh.size())
       Fail(key, std::to_string(list.size()) + " numbers for " + std::to_string(s_.arm.dof()) + " joints");
   }
+  void PerParameter(const std::string& key, const std::vector<double>& list) const {
+    if (!list.empty() && list.size() != s_.arm.parameters.size())
+      Fail(key, std::to_string(list.size()) + " numbers for " + std::to_string(s_.arm.parameters.size()) +
+                    " parameters");
+  }
+  void InBox(const std::string& key, const char* what, const std::vector<double>& list) const {
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const StructuralParameter& p = s_.arm.parameters[k];
+      if (list[k] < p.lo || list[k] > p.hi)
+        Fail(key, p.name + ": " + what + " " + ToText(list[k]) + " lies outside the box " + ToText(p.lo) +
+                      " ... " + ToText(p.hi));
+    }
+  }
   void Present(const std::string& key, const std::vector<double>& list) const {
     if (list.empty()) Fail(key, "missing; a run needs one number per joint");
   }
@@ -163,7 +171,7 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.ArmIsComplete();
   rules.Sizes();
   rules.StartInsideLimits();
-  rules.BoxHoldsStart();
+  rules.BoxHoldsStartAndTruth();
   rules.LawIsKnown();
   rules.AgesAreGraded();
   rules.ForceLoopIsStable();

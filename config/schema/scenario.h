@@ -23,6 +23,7 @@ struct PlantConfig {
   double friction_scale = 1.0;   // scales viscous and Coulomb friction
   double payload_step_kg = 0.0;  // point mass added at the tool point at payload_step_s
   double payload_step_s = 0.0;
+  std::vector<double> p_true;  // true structural parameters; empty: the arm file's
 };
 
 /// [drives] what stands between a commanded and an applied torque.

@@ -26,6 +26,9 @@ void Fields(V& v, PlantConfig& c) {
   v.Number("payload_step_kg", c.payload_step_kg, {"kg", 0, 100}, "point mass that appears at the tool point");
   v.Number("payload_step_s", c.payload_step_s, {"s", 0, 3600},
            "when it appears, after the drives were enabled");
+  v.Numbers(
+      "p_true", c.p_true, {"1", -1e3, 1e3},
+      "true parameters instead of the arm's p_true, within their box; bodies and viscous friction follow");
 }
 
 template <typename V>

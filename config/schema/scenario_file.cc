@@ -7,6 +7,7 @@
 #include "config/schema/rules.h"
 #include "config/schema/scenario_fields.h"
 #include "config/schema/toml_text.h"
+#include "config/schema/true_parameters.h"
 #include "config/schema/writer.h"
 
 namespace reed {
@@ -116,6 +117,7 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   Spread(s.control.Lambda, s.arm.dof());
   Spread(s.reference.start_rad, s.arm.dof());
   CheckRules(doc, s);
+  if (!s.plant.p_true.empty()) SetTrueParameters(s.arm, s.plant.p_true);
   s.wall.normal.normalize();
   return s;
 }

@@ -233,3 +233,33 @@ def test_the_readme_names_every_key_of_the_arm_and_every_check():
     for name, member in vars(checks).items():
         if inspect.isfunction(member) and list(inspect.signature(member).parameters) == ["run"]:
             assert f"| {name} |" in readme, name
+
+
+def test_another_truth_moves_the_bodies_and_nothing_that_the_controller_knows(tmp_path):
+    """By hand: the hand is m4 at z = -0.075 m and mL at the tip; m2 is a rod of 0.35 m; bodies without a parameter stay."""
+    def effective(*options, config="press_known"):
+        path = tmp_path / f"{len(list(tmp_path.iterdir()))}.toml"
+        assert run("--config", str(config), "--write", str(path), *options) == (0, "")
+        return path, tomllib.loads(path.read_text())
+
+    _, before = effective()
+    path, after = effective("--set", "plant.p_true=[1.0,0.2,0.06,0.55,0.6,0.25]")
+    bodies, old = after["arm"]["bodies"], before["arm"]["bodies"]
+    assert bodies[1]["mass"] == pytest.approx(1.0) and bodies[1]["com"] == pytest.approx([0.175, 0, 0])
+    assert bodies[1]["inertia_about_com"][2][2] == pytest.approx(1.0 * 0.35**2 / 12)
+    assert bodies[0]["inertia_about_com"][2][2] == pytest.approx(0.2) and bodies[0]["mass"] == 0
+    assert bodies[2] == old[2] and bodies[3] == old[3]
+    m, c = 0.6 + 0.25, -0.075 * 0.6 / (0.6 + 0.25)
+    assert bodies[4]["mass"] == pytest.approx(m) and bodies[4]["com"] == pytest.approx([0, 0, c])
+    # about the centre of mass: both parts' own inertia and their distances from it
+    own = 0.6 * 0.0021 + 0.25 * 0.00064
+    assert bodies[4]["inertia_about_com"][0][0] == pytest.approx(own + 0.6 * (0.075 + c)**2 + 0.25 * c**2)
+    assert after["arm"]["p_true"] == [1.0, 0.2, 0.06, 0.55, 0.6, 0.25] and after["arm"]["p_nom"] == before["arm"]["p_nom"]
+    assert {key for key in after["arm"] if after["arm"][key] != before["arm"][key]} == {"bodies", "p_true"}
+    assert effective(config=path)[1] == after  # read back as it was written
+
+
+def test_a_truth_outside_its_box_is_refused():
+    assert "m2: truth 1.3 lies outside the box 0 ... 1.2" in refused("--config", "press_known", "--set",
+                                                                     "plant.p_true=[1.3,0.15,0.12,0.55,0.4,0.5]")
+    assert "3 numbers for 6 parameters" in refused("--config", "press_known", "--set", "plant.p_true=[0.7,0.15,0.12]")
