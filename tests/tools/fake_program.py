@@ -18,6 +18,7 @@ def main() -> int:
     for option in ("--config", "--bus", "--clock", "--log", "--candump"):
         parser.add_argument(option)
     parser.add_argument("--enable", action="store_true")
+    parser.add_argument("--no-lcm", action="store_true")
     options = parser.parse_args()
     stopped = []
     for number in (signal.SIGINT, signal.SIGTERM):

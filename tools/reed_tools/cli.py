@@ -9,6 +9,7 @@ from reed_tools.errors import ReedError, UsageError
 
 COMMANDS = {
     "run": ("run_command", "one hardware-in-the-loop run: figures, plots, report"),
+    "campaign": ("campaign_command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
     "report": ("report_command", "rebuild figures, plots and report of a run folder"),
     "inspect": ("inspect_command", "the model and the law as numbers, by the code the firmware runs"),
     "spy": ("spy_command", "watch every telemetry channel live with lcm-spy"),

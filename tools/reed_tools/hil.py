@@ -28,6 +28,7 @@ class Plan:
     out: str
     most_cycles: int  # more than the scenario and its start can need
     lcm: bool = True  # publish on the LCM network too
+    candump: bool = True  # keep every frame
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -75,7 +76,8 @@ def run_pair(plan: Plan, on_progress) -> Outcome:
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True))
                 for number in (signal.SIGINT, signal.SIGTERM)}
     plant = start("plant", plan.plant_sim, plan, [])
-    firmware = start("firmware", plan.firmware, plan, ["--enable", "--candump", str(Path(plan.out) / "bus.candump")])
+    frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
+    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames])
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:

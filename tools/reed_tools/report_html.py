@@ -37,9 +37,8 @@ def mark(ok: bool) -> str:
     return '<span class="pass">ok</span>' if ok else '<span class="fail"><b>FAIL</b></span>'
 
 
-def picture(path: Path) -> str:
+def picture(path: Path, caption: str) -> str:
     data = base64.b64encode(path.read_bytes()).decode()
-    caption = CAPTIONS.get(path.stem, "")
     return f'<figure><img alt="{html.escape(caption)}" src="data:image/png;base64,{data}"><figcaption>{html.escape(caption)}</figcaption></figure>'
 
 
@@ -59,7 +58,7 @@ def sections(summary: dict, effective_text: str, pictures: list[Path]) -> list[t
     parameters = table(["parameter", "true", "initial", "final", "largest"], [
         [html.escape(name), *(number(value) for value in values)] for name, *values in zip(known["names"], *columns)])
     machine = "".join(f"<p>{html.escape(line)}</p>" for line in lines(summary))
-    return [("Checks", checks), ("Error by second", windows), ("Pictures", "\n".join(picture(path) for path in pictures)),
+    return [("Checks", checks), ("Error by second", windows), ("Pictures", "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)),
             ("Parameters", parameters), ("Loop, bus and clock", machine + timing),
             ("Effective configuration", f"<p>SHA-256 {summary['config_sha256']}</p><pre>{html.escape(effective_text)}</pre>")]
 

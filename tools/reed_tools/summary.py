@@ -16,9 +16,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
     signals = join(recording)
     run, rate_hz = recording.run, effective["timing"]["rate_hz"]
     clock = run.clock if run else None
-    data = checks.RunData(recording, signals, rate_hz, effective["arm"]["torque_limit"],
-                          scenario.parameter_boxes(effective))
-    verdicts = checks.evaluate(effective["checks"], data)
+    verdicts = checks.evaluate(effective["checks"], run_data(effective, recording, signals))
     arm = effective["arm"]
     summary = {
         "schema": SCHEMA,
@@ -42,6 +40,11 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "digest": recording.digest(clock),
     }
     return summary, signals
+
+
+def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
+    return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
+                          scenario.parameter_boxes(effective))
 
 
 def bus(recording: Recording) -> dict:

@@ -2,6 +2,7 @@
 
 import hashlib
 import heapq
+import itertools
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -71,15 +72,17 @@ def merge(parts: list[Path], target: Path) -> None:
         part.unlink()
 
 
-def load(path: Path) -> Recording:
-    if not path.is_file():
-        raise RunError(f"{path} is missing: nothing was recorded")
+def load(*paths: Path) -> Recording:
+    """One merged log, or the two programs' own: no channel is in both."""
+    for path in paths:
+        if not path.is_file():
+            raise RunError(f"{path} is missing: nothing was recorded")
     use_message_types()
     import reed
 
     payloads = {channel: [] for channel in TABLES}
     recording = Recording(singles={channel: [] for channel in SINGLES})
-    for _, channel, data in events(path):
+    for _, channel, data in itertools.chain.from_iterable(map(events, paths)):
         if channel in payloads:
             payloads[channel].append(data)
         elif channel in SINGLES:

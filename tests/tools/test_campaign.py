@@ -1,0 +1,281 @@
+"""Campaigns: draws follow from (seed, index) alone; finished draws are kept; what comes out can be read and repeated."""
+
+import json
+import math
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as xml
+from dataclasses import replace
+
+import pytest
+
+from reed_tools import campaign_file, campaign_record, campaign_verdict
+from reed_tools.campaign_file import CAMPAIGNS, Drawn
+from reed_tools.paths import BUILD, ROOT, SCENARIOS
+
+HEAD = '[campaign]\nname = "small"\nscenario = "{scenario}"\ndraws = 4\nseed = 3\n'
+WALL = '[[draw]]\nkey = "wall.stiffness_Npm"\nlog_uniform = [5e3, 20e3]\n'
+SEED = '[[draw]]\nkey = "scenario.seed"\ninteger = [1, 1000]\n'
+
+
+@pytest.fixture
+def press_known():
+    return campaign_file.load(CAMPAIGNS / "press_known.toml")
+
+
+def records_in(folder):
+    return [json.loads(line) for line in (folder / "draws.jsonl").read_text().splitlines()]
+
+
+def one_line(done, status):
+    assert done.returncode == status, done.stdout + done.stderr
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("reed: "), done.stderr
+    return lines[0]
+
+
+# ---- sampling ----
+
+
+def test_a_draw_follows_from_seed_and_index_and_not_from_those_before_it(press_known):
+    forwards = [press_known.overrides(index) for index in range(20)]
+    again = campaign_file.load(CAMPAIGNS / "press_known.toml")
+    assert [again.overrides(index) for index in reversed(range(20))] == forwards[::-1]
+    assert len({tuple(overrides) for overrides in forwards}) == 20
+    assert campaign_file.load(CAMPAIGNS / "press_known.toml", seed=2).overrides(0) != forwards[0]
+
+
+def test_draws_are_those_of_every_machine():
+    """SHA-256 of "1/0/a/0" begins with these 8 bytes: by `printf 1/0/a/0 | sha256sum`."""
+    digest = subprocess.run(["sha256sum"], input=b"1/0/a/0", capture_output=True, check=True).stdout.split()[0]
+    assert campaign_file.unit_number("1/0/a/0") == int(digest[:16], 16) // 2048 / 2**53
+
+
+def test_a_number_more_leaves_all_others_as_they_were(press_known):
+    more = replace(press_known, drawn=(Drawn("wall.damping_Nspm", "uniform", [0.0, 40.0]), *press_known.drawn))
+    for index in range(5):
+        before, after = press_known.values(index), more.values(index)
+        assert after.pop("wall.damping_Nspm") and after == before
+
+
+@pytest.mark.parametrize("distribution, support, middle", [
+    ("uniform", [2.0, 4.0], 3.0), ("log_uniform", [0.5, 2.0], 1.0), ("integer", [1, 9], 5), ("choice", [10, 20, 30], 20)])
+def test_distributions_fill_their_support_around_its_middle(distribution, support, middle):
+    drawn = Drawn("x", distribution, support)
+    values = sorted(drawn.value(1, index) for index in range(4001))
+    assert support[0] <= values[0] and values[-1] <= support[-1]
+    assert values[0] <= support[0] + 0.01 * support[-1] and values[-1] >= 0.99 * support[-1]
+    assert values[2000] == pytest.approx(middle, rel=0.05)  # half the draws: 4001 of them leave 0.8 % of the range
+    below = sum(value < math.sqrt(support[0] * support[-1]) for value in values) / len(values)
+    if distribution == "log_uniform":
+        assert below == pytest.approx(0.5, abs=0.03)
+
+
+def test_entries_of_a_list_are_drawn_each_by_itself(press_known):
+    factors = [[value / base for value, base in zip(press_known.values(index)["plant.p_true"], (0.7, 0.15, 0.12, 0.55, 0.4, 0.5))]
+               for index in range(300)]
+    assert all(0.5 <= factor <= 1.5 for row in factors for factor in row)
+    first, second = [row[0] - 1.0 for row in factors], [row[1] - 1.0 for row in factors]
+    correlation = sum(a * b for a, b in zip(first, second)) / math.sqrt(sum(a * a for a in first) * sum(b * b for b in second))
+    assert abs(correlation) < 0.17  # three standard deviations of 300 independent pairs
+
+
+def test_shards_part_the_draws_without_overlap(press_known):
+    from reed_tools.campaign_command import selected
+
+    options = {"draws": 23, "first": None, "count": None, "shard": None}
+    parts = [selected(press_known, {**options, "shard": f"{part}/4"}) for part in (1, 2, 3, 4)]
+    assert sorted(sum(parts, [])) == list(range(23)) and max(map(len, parts)) - min(map(len, parts)) <= 1
+    assert selected(press_known, {**options, "first": 7, "count": 3}) == [7, 8, 9]
+
+
+def test_every_campaign_there_is_draws_what_the_programs_accept(tmp_path):
+    """First and last draw of each; the reader refuses unknown keys and numbers out of range."""
+    for path in CAMPAIGNS.glob("*.toml"):
+        campaign = campaign_file.load(path)
+        for index in (0, campaign.draws - 1):
+            command = [BUILD / "bin" / "reed_config", "--config", campaign.scenario]
+            for entry in campaign.overrides(index):
+                command += ["--set", entry]
+            done = subprocess.run(command, capture_output=True, text=True, timeout=30)
+            assert done.returncode == 0, done.stderr
+
+
+# ---- judging ----
+
+
+def record(index, value, limit=10.0, status="finished", digest="d"):
+    checks = [{"name": "force", "limit": limit, "value": value, "ok": value is not None and value <= limit},
+              {"name": "faults", "limit": 0, "value": 0, "ok": True}]
+    return campaign_record.Record(index, "definition", "build", ["scenario.seed=5", "wall.friction=0.2"], status, "", checks, digest=digest)
+
+
+def test_the_verdict_counts_stable_and_within_and_finds_the_worst(press_known):
+    records = [record(k, 5.0) for k in range(97)] + [record(97, 12.0), record(98, 19.0), record(99, 9.0)]
+    assert campaign_verdict.judge(press_known, records, []).ok
+    stable, within, worst = campaign_verdict.judge(press_known, records, []).lines
+    assert (stable.value, within.value, worst.value) == (100.0, 98.0, 1.9)
+    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, 21.0)], []).ok
+    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, None)], []).ok
+    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, 5.0, status="fault")], []).ok
+    bouncing = record(99, 5.0)
+    bouncing.stability.append({"name": "contact_lost_ms", "limit": 0, "value": 12.0, "ok": False})
+    assert not bouncing.stable and bouncing.deciding["name"] == "contact_lost_ms"
+    assert not campaign_verdict.judge(press_known, [*records[:99], bouncing], []).ok
+    assert not campaign_verdict.judge(press_known, [record(k, 11.0) for k in range(6)] + records[:94], []).ok
+    assert [one.index for one in campaign_record.worst_first(records)[:2]] == [98, 97]
+
+
+def test_a_second_run_with_another_digest_fails_the_campaign(press_known):
+    records = [record(k, 5.0) for k in range(4)]
+    assert campaign_verdict.judge(press_known, records, [record(2, 5.0)]).ok
+    verdict = campaign_verdict.judge(press_known, records, [record(2, 5.0, digest="other")])
+    assert not verdict.ok and verdict.different == [2]
+
+
+def test_a_broken_limit_of_zero_is_worse_than_any_ratio():
+    bad = record(0, 5.0)
+    bad.checks[1].update(value=1, ok=False)
+    assert bad.stable and bad.ratio == math.inf and bad.deciding["name"] == "faults"
+
+
+# ---- with stand-ins for the two programs ----
+
+
+@pytest.fixture
+def small(tmp_path):
+    """A campaign of four draws whose limits the stand-ins' synthetic figures hold."""
+    text = (SCENARIOS / "press_known.toml").read_text()
+    scenario = tmp_path / "lenient.toml"
+    scenario.write_text(text[:text.index("[[checks]]")] + '[[checks]]\nname = "force_peak_N_last_second"\nlimit = 100.0\n')
+    path = tmp_path / "small.toml"
+    path.write_text(HEAD.format(scenario=scenario) + WALL + SEED)
+    return path
+
+
+def test_a_campaign_writes_its_draws_junit_and_page(reed, small, tmp_path):
+    folder = tmp_path / "out"
+    done = reed("campaign", small, "--jobs", 2, "--repeat", 1, "--out", folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "\x1b" not in done.stdout and "4 / 4 draws" in done.stdout and "PASS" in done.stdout
+    drawn = records_in(folder)
+    assert sorted(one["index"] for one in drawn) == [0, 1, 2, 3]
+    suite = xml.parse(folder / "junit.xml").getroot()
+    assert (suite.tag, suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("testsuite", "7", "0", "0")
+    assert {case.get("name") for case in suite} >= {"draw 0", "draw 3", "worst figure to its limit"}
+    page = (folder / "campaign.html").read_text()
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["verdict"] == "pass" and summary["repeated"] == 1 and len(summary["worst"]) == 4
+    for one in drawn:
+        assert all(entry in page for entry in one["overrides"] if not entry.startswith("scenario.seed")), one
+    assert page.count("tools/reed run") == 4 and page.count("<img") == 2
+    assert "http" not in page and "src=\"data:image/png;base64," in page
+
+
+def test_resuming_runs_only_what_is_missing(reed, small, tmp_path):
+    folder = tmp_path / "out"
+    assert reed("campaign", small, "--count", 2, "--repeat", 0, "--out", folder).returncode == 0
+    before = (folder / "draws.jsonl").read_text()
+    with open(folder / "draws.jsonl", "a") as file:
+        file.write('{"index": 3, "defin')  # the machine stopped while this was written
+    done = reed("campaign", "--resume", folder, "--draws", 4, "--repeat", 0)
+    assert done.returncode == 0 and "4 draws" in done.stdout and "2 to run" in done.stdout, done.stdout + done.stderr
+    assert (folder / "draws.jsonl").read_text().startswith(before)
+    assert sorted(one["index"] for one in records_in(folder)) == [0, 1, 2, 3]
+
+
+def test_an_interrupted_campaign_keeps_its_finished_draws(reed, small, tmp_path):
+    folder = tmp_path / "out"
+    process = reed.start("campaign", small, "--draws", 40, "--jobs", 1, "--out", folder)
+    wait_for_line(folder / "draws.jsonl")
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 1 and f"--resume {folder}" in out and not err, out + err
+    kept = len(records_in(folder))
+    assert 1 <= kept < 40 and f"interrupted after {kept} of 40" in out
+    assert json.loads((folder / "summary.json").read_text())["finished"] == kept
+
+
+def test_a_program_that_dies_is_status_3_and_its_draw_is_run_again(reed, small, tmp_path):
+    folder = tmp_path / "out"
+    done = reed("campaign", small, "--count", 1, "--out", folder, REED_FAKE_PLANT="die")
+    assert "bus lost" in one_line(done, 3)
+    suite = xml.parse(folder / "junit.xml").getroot()
+    assert suite.get("errors") == "1"
+    done = reed("campaign", "--resume", folder, "--repeat", 0)
+    assert done.returncode == 0 and "1 to run" in done.stdout, done.stdout + done.stderr
+
+
+def test_draws_of_another_campaign_and_lines_that_are_no_draw_are_refused(tmp_path):
+    campaign_record.append(tmp_path, record(0, 5.0))
+    assert [one.index for one in campaign_record.read(tmp_path, "definition")] == [0]
+    with pytest.raises(campaign_file.UsageError, match="draws.jsonl:1: a draw of another campaign"):
+        campaign_record.read(tmp_path, "another")
+    (tmp_path / "draws.jsonl").write_text('{"index": 3}\n')
+    with pytest.raises(campaign_file.UsageError, match="draws.jsonl:1: not a draw"):
+        campaign_record.read(tmp_path, "definition")
+
+
+@pytest.mark.parametrize("argv, told", [
+    (["nowhere"], "press_known"),
+    (["--draws", "0"], "whole number"),
+    (["--shard", "5/4"], "I from 1 to N"),
+    (["--from", "200"], "--from 200"),
+    (["--jobs", "-1"], "--jobs"),
+    (["--resume", "/nowhere"], "/nowhere"),
+    (["--set", "wall.stifness_Npm=1"], "stiffness_Npm"),
+    (["--out", "/proc/nowhere"], "/proc/nowhere"),
+    (["--bogus"], "--bogus"),
+])
+def test_bad_input_is_one_line_and_status_2(reed, tmp_path, argv, told):
+    place = [] if "--out" in argv or "--resume" in argv else ["--out", tmp_path / "out"]
+    assert told in one_line(reed("campaign", *argv, *place), 2)
+
+
+@pytest.mark.parametrize("text, told", [
+    ("[campaign]\nname = 1", "scenario"),
+    (HEAD.format(scenario="x").replace("draws = 4", "draws = 0"), "campaign.draws"),
+    (HEAD.format(scenario="x") + "colour = 1\n", "campaign.colour"),
+    (HEAD.format(scenario="x") + "[stable]\nbeauty = 1\n", "stable.beauty"),
+    (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\n', "uniform"),
+    (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\nuniform = [2, 1]\n', "low < high"),
+    (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\nlog_uniform = [0, 1]\n', "0 < low"),
+    (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\nchoice = ["b"]\ntimes = 2\n', "multiplies"),
+    ("campaign", "not TOML"),
+])
+def test_a_bad_campaign_file_is_refused_with_its_key(tmp_path, text, told):
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    with pytest.raises(campaign_file.UsageError, match=told):
+        campaign_file.load(path)
+
+
+# ---- with the programs themselves ----
+
+
+def test_a_real_campaign_passes_and_its_worst_draw_repeats_bit_by_bit(tmp_path):
+    folder = tmp_path / "out"
+    done = call("campaign", "press_known", "--draws", "4", "--repeat", "0", "--out", folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    worst = json.loads((folder / "summary.json").read_text())["worst"][0]
+    words = shlex.split(worst["command"])
+    assert words[:2] == ["tools/reed", "run"]
+    call(*words[1:], "--bus", "udp:239.74.163.2:43978", "--out", tmp_path / "again")
+    assert json.loads((tmp_path / "again" / "summary.json").read_text())["digest"] == worst["digest"]
+
+
+def call(*argv):
+    environment = {**os.environ, "REED_BUILD_DIR": str(BUILD), "PYTHONPATH": str(ROOT / "tools")}
+    return subprocess.run([sys.executable, "-m", "reed_tools", *map(str, argv)], env=environment, capture_output=True, text=True,
+                          timeout=120)
+
+
+def wait_for_line(path):
+    deadline = time.monotonic() + 60
+    while not (path.exists() and path.read_text().endswith("\n")):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
