@@ -92,11 +92,16 @@ class ArmPlant::Impl {
 
   std::string ailment() const {
     if (healthy()) return "";
-    const int n = chain_.dof();
+    const int n = chain_.dof(), elastic = sick_coordinate_ - 2 * n;
     std::ostringstream text;
-    text << (sick_coordinate_ < n ? "motor " : "joint ") << sick_coordinate_ % n + 1 << " at angle "
-         << x_[sick_coordinate_] << " rad, speed " << x_dot_[sick_coordinate_] << " rad/s, t = " << t_
-         << " s";
+    if (elastic < 0) {
+      text << (sick_coordinate_ < n ? "motor " : "joint ") << sick_coordinate_ % n + 1 << " at angle "
+           << x_[sick_coordinate_] << " rad, speed " << x_dot_[sick_coordinate_] << " rad/s";
+    } else {
+      text << "elastic coordinate " << elastic % kElastic + 1 << " of element " << elastic / kElastic + 1
+           << " at " << x_[sick_coordinate_] << ", rate " << x_dot_[sick_coordinate_] << " 1/s";
+    }
+    text << ", t = " << t_ << " s";
     return text.str();
   }
 

@@ -56,18 +56,24 @@ BeamQuery ParseBeam(const std::string& text) {
       beam.rhoA_kgpm = value;
     } else if (key == "tip_mass") {
       beam.tip_mass_kg = value;
+    } else if (key == "elements") {
+      beam.elements = value;
     } else {
-      throw CaseError("--beam: '" + key + "' is not known; allowed: length, EI, rhoA, tip_mass");
+      throw CaseError("--beam: '" + key + "' is not known; allowed: length, EI, rhoA, tip_mass, elements");
     }
   }
   if (!(beam.length_m > 0.0 && beam.EI_Nm2 > 0.0 && beam.rhoA_kgpm > 0.0 && beam.tip_mass_kg >= 0.0)) {
     throw CaseError("--beam: length, EI and rhoA must be given and positive, tip_mass not negative");
   }
+  if (!(beam.elements >= 1.0 && beam.elements <= 100.0 && beam.elements == std::floor(beam.elements))) {
+    throw CaseError("--beam: elements must be a whole number, 1 ... 100");
+  }
   return beam;
 }
 
 void WriteBeamModes(std::ostream& out, const BeamQuery& beam, int modes) {
-  const auto frequencies = plant::BeamModes(beam.length_m, beam.EI_Nm2, beam.rhoA_kgpm, beam.tip_mass_kg);
+  const auto frequencies = plant::BeamModes(beam.length_m, beam.EI_Nm2, beam.rhoA_kgpm, beam.tip_mass_kg,
+                                            static_cast<int>(beam.elements));
   out << Json{{"freq_hz", FirstOf(frequencies, modes)}}.dump() << '\n';
 }
 
@@ -86,6 +92,8 @@ void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vect
   result["freq_hz"] = FirstOf(bent.frequency_hz(), modes);
   result["undeformed_m"] = Line(bent.Undeformed());
   result["deformed_m"] = Line(bent.Deformed());
+  result["nodes_m"] = Line(bent.Undeformed(0));
+  result["nodes_deformed_m"] = Line(bent.Deformed(0));
   result["mode_shapes"] = Json::array();
   for (int k = 0; k < static_cast<int>(result["freq_hz"].size()); ++k) {
     result["mode_shapes"].push_back(Line(bent.ModeShape(k)));

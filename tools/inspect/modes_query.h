@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/arm_description.h"
+#include "config/schema/scenario.h"
 
 namespace reed::inspect {
 
-/// A clamped beam from "length=...,EI=...,rhoA=...[,tip_mass=...]" (m, N·m², kg/m, kg).
+/// A clamped beam from "length=...,EI=...,rhoA=...[,tip_mass=...][,elements=...]" (m, N·m², kg/m, kg, 1).
 struct BeamQuery {
   double length_m = 0.0, EI_Nm2 = 0.0, rhoA_kgpm = 0.0, tip_mass_kg = 0.0;
+  double elements = PlantConfig{}.elements_per_link;
 };
 
 /// Throws CaseError naming the key and what is allowed.
@@ -20,9 +21,9 @@ BeamQuery ParseBeam(const std::string& text);
 /// {"freq_hz": [...]}: the first `modes` bending frequencies in one plane, as many as the discretisation has.
 void WriteBeamModes(std::ostream& out, const BeamQuery& beam, int modes);
 
-/// {"arm", "q", "freq_hz", "undeformed_m", "deformed_m", "mode_shapes"}: the arm at rest under gravity with
-/// its motors locked at q (rad); lines are points from base to tool point, a shape's largest displacement
-/// is 1.
+/// {"arm", "q", "freq_hz", "undeformed_m", "deformed_m", "nodes_m", "nodes_deformed_m", "mode_shapes"}: the
+/// arm at rest under gravity with its motors locked at q (rad); lines are points from base to tool point,
+/// nodes the joints, member ends and tool point among them; a shape's largest displacement is 1.
 void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vector<double>& q, int modes);
 
 }  // namespace reed::inspect
