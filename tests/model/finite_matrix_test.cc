@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "firmware/model/semidefinite_solver.h"
 
 namespace reed::model {
