@@ -52,10 +52,28 @@ std::vector<double> BeamModes(double length_m, double EI_Nm2, double rhoA_kgpm, 
   return frequency_hz;
 }
 
+namespace {
+
+/// What bends while the motors are locked: a description may leave out the rotors, which do not move, and
+/// either the springs or the sections, which are then rigid.
+ArmChain LockedChain(ArmDescription arm, PlantConfig config) {
+  constexpr double kRigid_Nmprad = 1e9;
+  const auto joints = static_cast<std::size_t>(arm.dof());
+  if (arm.joint_stiffness_Nmprad.empty() && arm.sections.empty())
+    throw std::invalid_argument("arm " + arm.name +
+                                ": nothing bends, it has neither joint_stiffness nor sections");
+  if (arm.rotor_inertia_kgm2.empty()) arm.rotor_inertia_kgm2.assign(joints, 1.0);
+  if (arm.joint_stiffness_Nmprad.empty()) arm.joint_stiffness_Nmprad.assign(joints, kRigid_Nmprad);
+  if (arm.sections.empty()) config.flexible_links = false;
+  return BuildChain(arm, config);
+}
+
+}  // namespace
+
 class ArmModes::Impl {
  public:
   Impl(const ArmDescription& arm, const PlantConfig& config, const VectorXd& motor_angle_rad)
-      : chain_(BuildChain(arm, config)),
+      : chain_(LockedChain(arm, config)),
         gravity_(chain_.gravity),
         wall_(WallConfig{}),
         equations_(chain_, wall_) {

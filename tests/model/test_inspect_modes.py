@@ -110,14 +110,43 @@ def answer_tip(program, q):
     return json.loads(done.stdout)["cases"][0]["tip_xyz"]
 
 
-@pytest.mark.parametrize("joints", [1, 2, 6, 8])
-def test_arms_of_any_size_and_twist_have_modes(joints, inspect_program, tmp_path):
-    arm = made_arm("any", 70 + joints, [0.4, -1.1, 2.3, 0.7, -0.6, 1.9], joints) | {
-        "rotor_inertia_reflected": [0.1] * joints, "torque_limit": [20.0] * joints}
+def any_arm(joints):
+    return made_arm("any", 70 + joints, [0.4, -1.1, 2.3, 0.7, -0.6, 1.9], joints)
+
+
+def modes_of(arm, program, tmp_path, modes):
     path = tmp_path / "any.json"
     path.write_text(json.dumps(arm))
-    frequencies = answer(inspect_program, "--arm", path, "--modes", 8)["freq_hz"]
-    assert len(frequencies) == 8 and frequencies[0] > 0.1 and frequencies == sorted(frequencies)
+    return np.array(answer(program, "--arm", path, "--modes", modes)["freq_hz"])
+
+
+@pytest.mark.parametrize("joints", [1, 2, 6, 8])
+def test_arms_of_any_size_and_twist_have_modes(joints, inspect_program, tmp_path):
+    frequencies = modes_of(any_arm(joints), inspect_program, tmp_path, 8)
+    assert len(frequencies) == 8 and frequencies[0] > 0.1 and (np.diff(frequencies) >= 0).all()
+
+
+def test_locked_rotors_do_not_count(inspect_program, tmp_path):
+    heavy = any_arm(6) | {"rotor_inertia_reflected": [50.0] * 6}
+    assert (modes_of(heavy, inspect_program, tmp_path, 6) == modes_of(any_arm(6), inspect_program, tmp_path, 6)).all()
+
+
+def test_springs_or_sections_that_are_not_stated_are_rigid(inspect_program, tmp_path):
+    both = modes_of(any_arm(6), inspect_program, tmp_path, 6)
+    for key in ("joint_stiffness", "sections"):
+        arm = any_arm(6)
+        del arm[key]
+        stiffer = modes_of(arm, inspect_program, tmp_path, 6)
+        assert (stiffer > both * (1 - 1e-9)).all() and stiffer[0] > 1.05 * both[0]
+
+
+def test_an_arm_of_which_nothing_bends_says_so(inspect_program, tmp_path):
+    arm = any_arm(6)
+    del arm["joint_stiffness"], arm["sections"]
+    path = tmp_path / "any.json"
+    path.write_text(json.dumps(arm))
+    done = inspect(inspect_program, "--arm", path, "--modes", 3)
+    assert done.returncode == 2 and done.stderr == "arm any: nothing bends, it has neither joint_stiffness nor sections\n"
 
 
 @pytest.mark.parametrize("arguments, words", [
