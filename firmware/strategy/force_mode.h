@@ -48,10 +48,10 @@ class ForceMode {
   double wall_stiffness() const noexcept { return wall_.value(); }
 
   /// f: normal force as known now, N. x: normal tip position by motor angles, m. pace: share of the
-  /// bandwidth, below 1 where f comes late.
-  ForceDemand Step(double t_s, double f, double x, double pace) noexcept {
+  /// bandwidth, below 1 where f comes late. sensed: f is measured, not observed.
+  ForceDemand Step(double t_s, double f, double x, double pace, bool sensed = true) noexcept {
     ForceDemand demand;
-    if (!profile_.Wanted(t_s)) {
+    if (!profile_.Wanted(t_s) && !(sensed && Early(t_s, f))) {
       Reset();
       return demand;
     }
@@ -91,6 +91,12 @@ class ForceMode {
   }
 
  private:
+  /// Contact before its time, on a wall that is higher than believed: touched with f_d = 0, not pushed
+  /// through by position.
+  bool Early(double t_s, double f) const noexcept {
+    return profile_.desired_N > 0.0 && t_s < profile_.start_s && (in_contact() || f > config_.threshold_N);
+  }
+
   static constexpr double kNoContact = 1e12;
   static constexpr double kPromptPace = 0.99;
   ForceModeConfig config_;

@@ -89,8 +89,9 @@ class Separated {
                              force_.in_contact());
     const double pace = d.source == ForceSource::kObserver ? kObserverPace : 1.0;
     pace_ += T_ / kPaceTime_s * (pace - pace_);  // a change of source is no step of the gain
-    d.force = learn && d.source != ForceSource::kNone ? force_.Step(t_s, d.f, normal_.dot(kin_.tip), pace_)
-                                                      : ForceDemand{};
+    d.force = learn && d.source != ForceSource::kNone
+                  ? force_.Step(t_s, d.f, normal_.dot(kin_.tip), pace_, d.source == ForceSource::kKnown)
+                  : ForceDemand{};
     d.desired = learn ? nodal_.Step(d.plan, NodalOffset(d.force.f_d, effort)) : d.plan;  // (22)
     Aim(d, measured);
 

@@ -62,6 +62,22 @@ TEST(ForceMode, StaysLatchedWhenTheTipBounces) {
   EXPECT_FALSE(off.latched_now);
 }
 
+TEST(ForceMode, AWallMetBeforeItsTimeIsTouchedAndNotPushedThrough) {
+  reference::ForceProfile late = Press(8.0);
+  late.start_s = 0.3;
+  ForceMode mode(Config(), late, kT), observed(Config(), late, kT);
+  EXPECT_FALSE(mode.Step(0.1, 0.5, 0.0, 1.0).active) << "noise is no contact";
+  EXPECT_TRUE(mode.Step(0.101, 2.0, 0.0, 1.0).latched_now);
+  const ForceDemand touching = mode.Step(0.102, 2.0, 0.0, 1.0);
+  EXPECT_TRUE(touching.active);
+  EXPECT_EQ(touching.f_d, 0.0);
+  EXPECT_LT(touching.z_dot, 0.0) << "gives way";
+  EXPECT_TRUE(mode.Step(0.103, 0.0, 0.0, 1.0).active) << "latched";
+  EXPECT_NEAR(mode.Step(0.7, 8.0, 0.0, 1.0).f_d, 8.0, 1e-9) << "the ramp starts at its own time";
+  EXPECT_FALSE(observed.Step(0.101, 2.0, 0.0, 1.0, false).active)
+      << "an observed force may be a wrong weight";
+}
+
 TEST(ForceMode, DoesNotWindUpBehindTheSpeedLimit) {
   // The wall is gone for two seconds: the limit acts. Once it is back, the overshoot is that of a short
   // absence.
