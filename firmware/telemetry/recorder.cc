@@ -8,7 +8,8 @@ namespace reed::telemetry {
 namespace {
 
 /// Polling, because waking this thread would cost the loop a system call. The ring holds many times this.
-constexpr std::int64_t kPollNs = 2'000'000;
+constexpr std::int64_t kPollNs =
+    10'000'000;  // more often costs a shared core more switches than the loop itself makes
 /// Snapshots between two looks at the clock.
 constexpr int kBatch = 64;
 /// How much of a run a crash may cost.

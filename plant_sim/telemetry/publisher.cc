@@ -52,7 +52,7 @@ void Publisher::Run() {
     last_round = finish_.load(std::memory_order_acquire);
     while (queue_.TryPop(record)) Publish(record);
     // Asking for data this often costs less than a wake-up per record would cost the simulation.
-    if (!last_round) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (!last_round) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   if (log_ && !log_->Flush() && log_complete_) {
     log_complete_ = false;
