@@ -165,8 +165,8 @@ def test_a_campaign_writes_its_draws_junit_and_page(reed, small, tmp_path):
     drawn = records_in(folder)
     assert sorted(one["index"] for one in drawn) == [0, 1, 2, 3]
     suite = xml.parse(folder / "junit.xml").getroot()
-    assert (suite.tag, suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("testsuite", "7", "0", "0")
-    assert {case.get("name") for case in suite} >= {"draw 0", "draw 3", "worst figure to its limit"}
+    assert (suite.tag, suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("testsuite", "8", "0", "0")
+    assert {case.get("name") for case in suite} >= {"draw 0", "draw 3", "worst figure to its limit", "draws run twice are equal"}
     page = (folder / "campaign.html").read_text()
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["verdict"] == "pass" and summary["repeated"] == 1 and len(summary["worst"]) == 4

@@ -1,5 +1,5 @@
-"""A campaign as JUnit XML: the three limits, then every draw. A draw fails when it is not stable or beyond the worst allowed ratio:
-the same that makes the campaign fail."""
+"""A campaign as JUnit XML: its limits, whether draws repeat, then every draw. A draw fails when it is not stable or beyond
+the worst allowed ratio: the same that makes the campaign fail."""
 
 import math
 import xml.etree.ElementTree as xml
@@ -18,6 +18,10 @@ def write(folder: Path, campaign: Campaign, records: list[Record], verdict: Verd
         case = xml.SubElement(suite, "testcase", classname=f"campaign.{campaign.name}", name=limit.name)
         if not limit.ok:
             xml.SubElement(case, "failure", message=f"{limit.value:g}, required {limit.sign} {limit.limit:g}")
+    if verdict.repeated:
+        case = xml.SubElement(suite, "testcase", classname=f"campaign.{campaign.name}", name="draws run twice are equal")
+        if verdict.different:
+            xml.SubElement(case, "failure", message=f"other digests in draws {', '.join(map(str, verdict.different))}")
     for record in records:
         case = xml.SubElement(suite, "testcase", classname=f"campaign.{campaign.name}.draw", name=f"draw {record.index}")
         xml.SubElement(case, "system-out").text = f"worst ratio {record.ratio:.3f}, digest {record.digest}\n{command(campaign.scenario, record)}"
