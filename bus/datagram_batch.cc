@@ -51,8 +51,7 @@ void ReceiveBatch::ReadOverflow(msghdr& header) noexcept {
   if (control == nullptr || control->cmsg_level != SOL_SOCKET || control->cmsg_type != SO_RXQ_OVFL) return;
   std::uint32_t total = 0;
   std::memcpy(&total, CMSG_DATA(control), sizeof total);
-  overflowed_ += total - last_overflow_;  // modulo 2^32
-  last_overflow_ = total;
+  overflow_.See(total);
 }
 
 SendBatch::SendBatch() {

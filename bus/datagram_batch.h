@@ -20,6 +20,20 @@ struct Datagram {
   bool truncated = false;               // it was longer than a slot
 };
 
+/// The kernel's 32-bit count of datagrams lost in a full queue (SO_RXQ_OVFL), followed past its wrap.
+class OverflowCount {
+ public:
+  void See(std::uint32_t count) noexcept {
+    total_ += count - last_;  // modulo 2^32
+    last_ = count;
+  }
+  std::uint64_t total() const noexcept { return total_; }
+
+ private:
+  std::uint32_t last_ = 0;
+  std::uint64_t total_ = 0;
+};
+
 class ReceiveBatch {
  public:
   static constexpr std::size_t kSlotBytes = 512;  // a 64-byte frame in msgpack is 231 bytes
@@ -37,7 +51,7 @@ class ReceiveBatch {
 
   /// Datagrams that the kernel dropped because the receive queue was full (SO_RXQ_OVFL), since the socket was
   /// opened.
-  std::uint64_t overflowed() const noexcept { return overflowed_; }
+  std::uint64_t overflowed() const noexcept { return overflow_.total(); }
 
  private:
   struct alignas(8) Slot {
@@ -51,8 +65,7 @@ class ReceiveBatch {
 
   std::array<Slot, kMaxBatch> slots_{};
   std::array<mmsghdr, kMaxBatch> headers_{};
-  std::uint32_t last_overflow_ = 0;  // the kernel's counter is 32 bits wide
-  std::uint64_t overflowed_ = 0;
+  OverflowCount overflow_;
 };
 
 class SendBatch {

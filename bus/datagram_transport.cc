@@ -35,6 +35,7 @@ void DatagramTransport::Use(int receive_fd, int send_fd) noexcept {
 
 int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept {
   const int enough = std::min(wanted, static_cast<int>(out.size()));
+  if (uring_.is_open()) return ReceiveByUring(out, enough, deadline_ns);
   int count = 0;
   while (count < enough && alive_ && deadline_ns - NowNs() > kPatient_ns) {
     count += Await(out.subspan(static_cast<std::size_t>(count)), enough - count);
@@ -72,7 +73,7 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
   for (int batch = 0; batch < kMaxBatchesPerDrain && count < out.size(); ++batch) {
     const int limit = std::min(kMaxBatch, static_cast<int>(out.size() - count));
     const int got = received_.Receive(receive_fd_, limit);
-    count += static_cast<std::size_t>(Read(got, out.subspan(count)));
+    count += static_cast<std::size_t>(Read(received_, got, out.subspan(count)));
     if (got < limit) break;  // the queue is empty
   }
   return static_cast<int>(count);
@@ -81,17 +82,31 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
 /// One system call for all the frames that are waited for, when there is time: no look before, no poll.
 int DatagramTransport::Await(std::span<Frame> out, int wanted) noexcept {
   const int limit = std::min({wanted, kMaxBatch, static_cast<int>(out.size())});
-  return Read(received_.ReceiveAll(receive_fd_, limit), out);
+  return Read(received_, received_.ReceiveAll(receive_fd_, limit), out);
 }
 
-int DatagramTransport::Read(int got, std::span<Frame> out) noexcept {
+/// Datagrams that are no frames for us do not count, so it may take another turn.
+int DatagramTransport::ReceiveByUring(std::span<Frame> out, int enough, std::int64_t deadline_ns) noexcept {
+  int count = 0;
+  bool more = true;
+  while (more && alive_) {
+    const int room = static_cast<int>(out.size()) - count;
+    const int got = uring_.Wait(enough - count, room, deadline_ns);
+    count += Read(uring_, got, out.subspan(static_cast<std::size_t>(count)));
+    more = count < enough && got > 0 && NowNs() < deadline_ns;
+  }
+  return count;
+}
+
+template <typename Batch>
+int DatagramTransport::Read(const Batch& batch, int got, std::span<Frame> out) noexcept {
   if (got < 0) NoteError(-got);
   std::size_t count = 0;
   for (int i = 0; i < got; ++i) {
-    if (Take(Read(received_[i], out[count]))) ++count;
+    if (Take(Read(batch[i], out[count]))) ++count;
   }
   counters_.frames_rx += count;
-  const std::uint64_t lost = received_.overflowed();
+  const std::uint64_t lost = batch.overflowed();
   counters_.overflowed = std::max(counters_.overflowed, lost - std::min(lost, own_dropped_));
   return static_cast<int>(count);
 }

@@ -9,6 +9,7 @@
 #include "bus/file_descriptor.h"
 #include "bus/incoming.h"
 #include "bus/transport.h"
+#include "bus/uring_receiver.h"
 
 namespace reed::bus {
 
@@ -17,6 +18,9 @@ class DatagramTransport : public Transport {
   int Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept final;
   int Send(std::span<const Frame> frames) noexcept final;
   bool alive() const noexcept final { return alive_; }
+  /// From here on the calling thread alone receives, and waits with one system call where the kernel can.
+  /// False: it cannot, and two calls do the same. Set-up only.
+  bool ReceiveOnThisThread() { return uring_.Open(receive_fd_); }
   const TransportCounters& counters() const noexcept final { return counters_; }
 
  protected:
@@ -34,7 +38,9 @@ class DatagramTransport : public Transport {
   bool Take(Incoming incoming) noexcept;
   int Drain(std::span<Frame> out) noexcept;
   int Await(std::span<Frame> out, int wanted) noexcept;
-  int Read(int got, std::span<Frame> out) noexcept;
+  int ReceiveByUring(std::span<Frame> out, int enough, std::int64_t deadline_ns) noexcept;
+  template <typename Batch>
+  int Read(const Batch& batch, int got, std::span<Frame> out) noexcept;
   void NoteError(int error) noexcept;
 
   int receive_fd_ = -1;
@@ -42,6 +48,7 @@ class DatagramTransport : public Transport {
   bool alive_ = true;
   bool drops_own_ = false;
   std::uint64_t own_dropped_ = 0;
+  UringReceiver uring_;
   ReceiveBatch received_;
   SendBatch sending_;
   TransportCounters counters_;

@@ -40,4 +40,9 @@ std::unique_ptr<Transport> OpenTransport(std::string_view name) {
   FailName(name);
 }
 
+bool ReceiveOnThisThread(Transport& transport) {
+  auto* const datagrams = dynamic_cast<DatagramTransport*>(&transport);
+  return datagrams != nullptr && datagrams->ReceiveOnThisThread();
+}
+
 }  // namespace reed::bus

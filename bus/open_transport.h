@@ -12,4 +12,8 @@ namespace reed::bus {
 /// where, and the fix or what is allowed.
 std::unique_ptr<Transport> OpenTransport(std::string_view name);
 
+/// From here on the calling thread alone receives from it, and waits with one system call where the kernel
+/// can (uring_receiver.h). False: it cannot, or forbids it; two calls then do the same.
+bool ReceiveOnThisThread(Transport& transport);
+
 }  // namespace reed::bus

@@ -4,9 +4,15 @@
 
 namespace reed::bus {
 
-double CycleTime_s(int joints, BitRates rates) noexcept {
+double AnswerTime_s(int joints, BitRates rates) noexcept {
   return FrameTime_s(layout::kSync.size, rates) + joints * FrameTime_s(layout::kJointState[0].size, rates) +
-         FrameTime_s(layout::kWrench.size, rates) + FrameTime_s(layout::kCommand.size, rates);
+         FrameTime_s(layout::kWrench.size, rates);
+}
+
+double CommandTime_s(BitRates rates) noexcept { return FrameTime_s(layout::kCommand.size, rates); }
+
+double CycleTime_s(int joints, BitRates rates) noexcept {
+  return AnswerTime_s(joints, rates) + CommandTime_s(rates);
 }
 
 double WireLoad(int joints, double rate_hz, BitRates rates) noexcept {

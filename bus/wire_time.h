@@ -33,6 +33,12 @@ constexpr double FrameTime_s(int size, BitRates rates = {}) noexcept {
 /// One cycle of an arm with `joints` joints: SYNC, joints x JOINT_STATE, WRENCH, COMMAND.
 double CycleTime_s(int joints, BitRates rates = {}) noexcept;
 
+/// Of these, what a receive phase waits for: SYNC, the states, WRENCH.
+double AnswerTime_s(int joints, BitRates rates = {}) noexcept;
+
+/// Of these, COMMAND.
+double CommandTime_s(BitRates rates = {}) noexcept;
+
 /// Share of the wire that the cycles take; 1 is a full wire.
 double WireLoad(int joints, double rate_hz, BitRates rates = {}) noexcept;
 

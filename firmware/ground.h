@@ -13,6 +13,11 @@ namespace reed {
 /// not allow it.
 void RefuseWireOverload(const Scenario& scenario);
 
+/// The scenario's [timing] with every budget set: those that are 0 share what the others leave of the period.
+/// Throws ConfigError when nothing is left, or when a budget is shorter than its frames take on a 1/5 Mbit/s
+/// wire and the scenario does not allow it.
+TimingConfig WithBudgets(const Scenario& scenario);
+
 /// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
 void RefuseSecondController(bus::Transport& transport);
 

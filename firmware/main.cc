@@ -46,12 +46,12 @@ void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::
   flight.usage = rt::ThreadUsage() - before;
 }
 
-Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
-           telemetry::SnapshotRing& ring) {
+Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& loop,
+           bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = StopFlag();
-  const LoopOptions loop = LoopOptionsFrom(scenario.timing);
   const bool wall = options.clock == ClockKind::kWall;
   rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0, scenario.timing.cpu, true};
+  if (wall && !options.seccomp) bus::ReceiveOnThisThread(transport);  // before memory is locked
   rt::RealtimeScope scope(wanted);
   for (const std::string& line : scope.report().Complaints())
     std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
@@ -64,6 +64,8 @@ Flight Fly(const Options& options, const Scenario& scenario, CycleBase& cycle,
   }
   std::atomic<bool> guarded{true};
   std::thread thread([&] {  // inside the scope: it inherits priority and core
+    rt::PrefaultStack();
+    if (wall) bus::ReceiveOnThisThread(transport);
     guarded = rt::ArmSyscallGuard();
     if (guarded) FlyInside(loop, wall, cycle, ring, stop, flight);
     rt::EndGuardedThread();
@@ -105,6 +107,7 @@ void Complete(run_t& run, const Flight& flight) {
 int Run(const Options& options) {
   const Scenario scenario = LoadScenario(options.config, options.load);
   RefuseWireOverload(scenario);
+  const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   const std::unique_ptr<CycleBase> cycle = MakeCycle(scenario, *transport, options.enable);
   RefuseSecondController(*transport);
@@ -122,7 +125,7 @@ int Run(const Options& options) {
   recorder.RecordRun(run);
   recorder.Start();
 
-  const Flight flight = Fly(options, scenario, *cycle, ring);
+  const Flight flight = Fly(options, scenario, loop, *transport, *cycle, ring);
 
   recorder.Stop();
   Complete(run, flight);

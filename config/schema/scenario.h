@@ -140,9 +140,9 @@ struct LimitConfig {
 /// [timing] the loop on the machine.
 struct TimingConfig {
   double rate_hz = 1000.0;
-  double rx_budget_us = 400.0;
-  double compute_budget_us = 300.0;
-  double tx_budget_us = 300.0;
+  double rx_budget_us = 0.0;       // 0: 40 % of the period, or what the frames take on a wire
+  double compute_budget_us = 0.0;  // 0: half of what the others leave
+  double tx_budget_us = 0.0;       // 0: half of what the others leave
   enum class Overrun { kKeepGrid, kSkip, kHold, kStop } overrun = Overrun::kKeepGrid;
   int max_missed_in_row = 19;  // more missed cycles in a row: fault
   enum class PhaseAction { kCount, kHold, kDegrade, kFault } phase_action = PhaseAction::kCount;

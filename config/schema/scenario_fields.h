@@ -170,10 +170,14 @@ void Fields(V& v, LimitConfig& c) {
 template <typename V>
 void Fields(V& v, TimingConfig& c) {
   v.Number("rate_hz", c.rate_hz, {"Hz", 50, 8000}, "control rate");
-  v.Number("rx_budget_us", c.rx_budget_us, {"µs", 1, 20000},
-           "receive phase: SYNC sent to measurements taken");
-  v.Number("compute_budget_us", c.compute_budget_us, {"µs", 1, 20000}, "compute phase");
-  v.Number("tx_budget_us", c.tx_budget_us, {"µs", 1, 20000}, "transmit phase");
+  v.Number("rx_budget_us", c.rx_budget_us, {"µs", 0, 20000},
+           "receive phase: SYNC sent to measurements taken; 0: 40 % of the period, or what SYNC, states and "
+           "wrench "
+           "take on a wire if that is more");
+  v.Number("compute_budget_us", c.compute_budget_us, {"µs", 0, 20000},
+           "compute phase; 0: half of what is left of the period");
+  v.Number("tx_budget_us", c.tx_budget_us, {"µs", 0, 20000},
+           "transmit phase; 0: half of what is left of the period");
   v.Choice("overrun", c.overrun, kOverrunPolicies,
            "after a cycle that ran past its period: keep_grid (go on) | skip (leave one period free) | hold "
            "(repeat the last command once) | stop");

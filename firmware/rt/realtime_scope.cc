@@ -18,13 +18,6 @@ namespace {
 constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 constexpr std::size_t kSmallestPage = 4096;
 
-/// Touches the stack below the caller, so that the loop finds its pages mapped. Its own frame must really
-/// exist.
-[[gnu::noinline]] void PrefaultStack() {
-  [[maybe_unused]] volatile unsigned char stack[kStackBytes];
-  for (std::size_t i = 0; i < kStackBytes; i += kSmallestPage) stack[i] = 0;
-}
-
 /// Lifts the soft limit as far as the hard one allows: what the machine would grant should not fail for want
 /// of asking.
 void RaiseSoftLimit(__rlimit_resource resource) {
@@ -58,6 +51,12 @@ Grant Refused(std::string problem, std::string fix) {
 }
 
 }  // namespace
+
+/// Its own frame must really exist.
+[[gnu::noinline]] void PrefaultStack() noexcept {
+  [[maybe_unused]] volatile unsigned char stack[kStackBytes];
+  for (std::size_t i = 0; i < kStackBytes; i += kSmallestPage) stack[i] = 0;
+}
 
 std::vector<std::string> RealtimeReport::Complaints() const {
   std::vector<std::string> lines;

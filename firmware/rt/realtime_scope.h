@@ -34,6 +34,10 @@ struct RealtimeReport {
   std::vector<std::string> Complaints() const;
 };
 
+/// Maps the stack below the caller, so that the loop finds its pages. The scope does it for its own thread; a
+/// thread that is started inside the scope has another stack.
+void PrefaultStack() noexcept;
+
 /// Applies to the calling thread (memory: to the process). Threads started inside the scope inherit priority
 /// and core, so ordinary threads are started before it. The destructor, on the same thread, puts everything
 /// back.

@@ -14,9 +14,9 @@
 namespace reed::rt {
 namespace {
 
-constexpr std::array kAllowed{__NR_clock_nanosleep, __NR_sendmmsg,      __NR_recvmmsg,
-                              __NR_ppoll,           __NR_clock_gettime, __NR_getrusage,
-                              __NR_rt_sigreturn,    __NR_exit,          __NR_restart_syscall};
+constexpr std::array kAllowed{
+    __NR_clock_nanosleep, __NR_sendmmsg,  __NR_recvmmsg,     __NR_io_uring_enter, __NR_ppoll,
+    __NR_clock_gettime,   __NR_getrusage, __NR_rt_sigreturn, __NR_exit,           __NR_restart_syscall};
 
 #if defined(__x86_64__)
 constexpr std::uint32_t kArchitecture = AUDIT_ARCH_X86_64;

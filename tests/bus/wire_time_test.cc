@@ -48,6 +48,8 @@ TEST(WireTime, CycleIsTheSumOfItsFrames) {
   EXPECT_NEAR(CycleTime_s(5) * 1e6, 56.6 + 5 * 72.6 + 105.6 + 137.6, 1e-9);
   EXPECT_NEAR(WireLoad(5, 1000), 0.6628, 1e-12);
   EXPECT_NEAR(CycleTime_s(8) * 1e6, 880.6, 1e-9);
+  EXPECT_NEAR(AnswerTime_s(5) * 1e6, 56.6 + 5 * 72.6 + 105.6, 1e-9);
+  EXPECT_NEAR(CommandTime_s() * 1e6, 137.6, 1e-9);
 }
 
 TEST(WireTime, ScheduleIsRefusedExactlyAboveItsHighestRate) {

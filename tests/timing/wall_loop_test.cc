@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <reed/event_t.hpp>
 #include <string>
 
+#include "firmware/telemetry/encode.h"
 #include "tests/timing/fake_cycle.h"
 
 namespace reed {
@@ -160,6 +162,23 @@ TEST(PhaseBudget, CountOnlyCountsAndTellsOnceWithTheLastThreeCycles) {
   const rt::PhaseHistory expected{
       {{100'000, 50'000, 10'000}, {100'000, 50'000, 10'000}, {100'000, 301'000, 10'000}}};
   EXPECT_EQ(recorded[4].phase_history, expected);
+}
+
+TEST(PhaseBudget, TheEventsTextTellsTheLastThreeCyclesPhaseTimes) {
+  Rig rig(12);
+  SlowCompute(rig);
+  rig.Run();
+  telemetry::Encoder encoder;
+  const telemetry::Bytes bytes = encoder.Event(rig.Recorded()[4], 0, "a phase was too long", 0);
+  reed::event_t event;
+  ASSERT_GT(event.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  EXPECT_EQ(event.text.rfind("a phase was too long", 0), 0U);
+  std::size_t at = 0;
+  for (const char* phase : {"100", "50", "10", "100", "50", "10", "100", "301", "10"}) {
+    at = event.text.find(phase, at);
+    ASSERT_NE(at, std::string::npos) << phase << " is not told in its place: " << event.text;
+    at += std::string(phase).size();
+  }
 }
 
 TEST(PhaseBudget, ExactlyTheBudgetIsWithinIt) {

@@ -1,5 +1,6 @@
 """The trace of a run in the trace event format: phases end to end, instants for misses, late frames and events."""
 
+import json
 from types import SimpleNamespace as Message
 
 from reed_tools import trace_events
@@ -29,3 +30,19 @@ def test_misses_late_frames_and_mode_changes_are_instants():
     assert instants["late frames"] == {"frames": 4}
     assert instants["mode changed"]["mode"] == 2
     assert len([event for event in events if event["name"] == "missed"]) == 1
+
+
+def test_run_trace_writes_a_file_that_perfetto_reads(reed, tmp_path):
+    """Its trace event format: an object with traceEvents, each with a name, a phase letter, a process and a thread; times in µs."""
+    done = reed("run", "--trace", "--bus", "udp:239.74.163.2:43978", "--out", tmp_path)
+    trace = json.loads((tmp_path / "trace.json").read_text())
+    events, cycles = trace["traceEvents"], json.loads((tmp_path / "summary.json").read_text())["cycles"]
+    assert done.returncode in (0, 1), done.stderr
+    assert {event["ph"] for event in events} <= {"X", "i", "M"}
+    for event in events:
+        assert event["name"] and {"pid", "tid"} <= event.keys()
+        assert event["ph"] == "M" or event["ts"] >= -1000.0
+        assert event["ph"] != "X" or event["dur"] >= 0.0
+    for phase in ("receive", "compute", "transmit"):
+        assert sum(event["name"] == phase for event in events) == cycles
+    assert any(event["ph"] == "i" for event in events), "the changes of mode are instants"

@@ -18,7 +18,7 @@ from reed_tools.paths import BUILD, ROOT, program
 from reed_tools.telemetry_log import load
 
 PORT = 46311
-RECEIVING = {"recvmmsg": "299", "ppoll": "271", "clock_nanosleep": "230", "sendmmsg": "307"}
+CALLS = {"clock_nanosleep": "230", "sendmmsg": "307", "io_uring_enter": "426", "ppoll": "271", "recvmmsg": "299"}  # x86-64
 FAST_HZ = 4000
 
 
@@ -49,7 +49,7 @@ def bus_cycle(arguments, folder) -> Found:
         bare.append(bare_cycle(seconds))
         ours.append(bus_time(folder, seconds, plant=[str(program("reed_still_plant")), bench_programs.BUS_GROUP, str(PORT), str(cores()[1])]))
         bent.append(bus_time(folder, seconds))
-    found = Found([Row("bus cycle through both programs, p50", median(ours), median(bare), "µs", 1.25, "bare C, the same bytes")],
+    found = Found([Row("bus cycle, both programs, p50", median(ours), median(bare), "µs", 1.25, "the same bytes by bare C")],
                   details={"bus_cycle_us": {"reed": ours, "flexible": bent, "bare": bare}})
     found.notes.append(f"bus cycle with the flexible plant, whose physics comes before its answer: {median(bent):.1f} µs")
     return found
@@ -78,7 +78,7 @@ def lockstep(_arguments, folder) -> Found:
     us = 1e6 * flight.wall_s / flight.cycles
     mean = {phase: float(timing(flight)[f"{phase}_ns"].mean()) * 1e-3 for phase in ("rx", "compute", "tx")}
     rest = us - sum(mean.values())
-    found = Found([Row("lockstep press_known on the flexible plant", flight.cycles * 1e-3 / flight.wall_s, None, "× real time", 8.0,
+    found = Found([Row("lockstep press_known, flexible plant", flight.cycles * 1e-3 / flight.wall_s, None, "×", 8.0,
                        less_is_better=False)])
     found.notes.append(
         f"a lockstep cycle of {us:.1f} µs: the loop waits {mean['rx']:.1f} µs for the plant, computes {mean['compute']:.1f}, sends "
@@ -92,7 +92,7 @@ def telemetry(arguments, _folder) -> Found:
     bench_programs.build("reed_bench_telemetry")
     with tempfile.TemporaryDirectory() as scratch:
         ns = bench_programs.nanoseconds("reed_bench_telemetry", arguments.processes, scratch)["telemetry"]
-    return Found([Row("telemetry's cost to the loop, per cycle", ns["median_ns"] * 1e-3, None, "µs", 0.5)], details={"telemetry_ns": ns})
+    return Found([Row("telemetry, cost per cycle", ns["median_ns"] * 1e-3, None, "µs", 0.5)], details={"telemetry_ns": ns})
 
 
 def system_calls(_arguments, folder) -> Found:
@@ -103,10 +103,10 @@ def system_calls(_arguments, folder) -> Found:
     for clock in ("lockstep", "wall"):
         flight = bench_programs.fly(folder, PORT, clock, "scenario.duration_s=1", under=(str(BUILD / "bin" / "reed_count_syscalls"),))
         threads = [json.loads(line)["calls"] for line in flight.text.splitlines() if line.startswith("{")]
-        loop = max(threads, key=lambda calls: calls.get(RECEIVING["sendmmsg"], 0))
-        per_cycle = {name: loop.get(number, 0) / flight.cycles for name, number in RECEIVING.items()}
+        loop = max(threads, key=lambda calls: calls.get(CALLS["sendmmsg"], 0))
+        per_cycle = {name: loop.get(number, 0) / flight.cycles for name, number in CALLS.items()}
         found.rows.append(Row(f"system calls per cycle, {clock}", sum(per_cycle.values()), None, "", 4.0))
-        found.notes.append(f"system calls per cycle, {clock}: " + ", ".join(f"{name} {count:.2f}" for name, count in per_cycle.items())
+        found.notes.append(f"system calls per cycle, {clock}: " + ", ".join(f"{name} {count:.2f}" for name, count in per_cycle.items() if count)
                            + f"; budget {budget[f'syscalls_{clock}']}")
     return found
 

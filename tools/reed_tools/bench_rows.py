@@ -61,6 +61,8 @@ def show(rows: list[Row]) -> None:
     table = grid("side by side", "ratio", "aim", "", "what", "Reed", "other side", "")
     for column in (3, 6):
         table.columns[column].justify = "left"
+    for column in (1, 3, 4, 5):
+        table.columns[column].no_wrap = True
     for row in rows:
         aim = f"{'≤' if row.less_is_better else '≥'} {row.aim:g}" if row.aim is not None else ""
         if row.aim is not None and not row.other:

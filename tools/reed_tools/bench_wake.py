@@ -24,7 +24,7 @@ def wake(arguments, _folder) -> Found:
         if anchored:
             theirs.append(summary(cyclictest(arguments.slice, interval_us=1000)))
     mine, other = middle(ours), middle(theirs) if anchored else {}
-    found = Found([Row(f"wake-up latency at 1 kHz, {name}", mine[f"{name}_us"], other.get(f"{name}_us"), "µs", 1.1, "cyclictest")
+    found = Found([Row(f"wake-up at 1 kHz, {name}", mine[f"{name}_us"], other.get(f"{name}_us"), "µs", 1.1, "cyclictest")
                    for name in ("p50", "p99")], details={"wake_us": {"reed": ours, "cyclictest": theirs}})
     if not anchored:
         found.notes.append(HOW_TO_GET.format("wake-up latency"))

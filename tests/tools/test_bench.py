@@ -1,0 +1,99 @@
+"""tools/reed bench: how figures become verdicts, what it says without its other sides, and bad input. Nothing is timed here."""
+
+import json
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from reed_tools import bench_command, bench_plot, bench_programs, bench_steps, bench_wake
+from reed_tools.bench_rows import Found, Row
+
+QUICK = SimpleNamespace(quick=True, processes=1, slice=1, slices=1)
+
+
+def test_a_ratio_is_judged_against_its_aim_and_a_figure_without_other_side_against_its_own():
+    assert Row("step", 2.0, 8.0, "ns", 0.5, "other").ok
+    assert not Row("step", 5.0, 8.0, "ns", 0.5, "other").ok
+    assert Row("speed", 9.0, None, "x", 8.0, less_is_better=False).ok
+    assert not Row("speed", 7.0, None, "x", 8.0, less_is_better=False).ok
+    assert Row("telemetry", 0.4, None, "µs", 0.5).ok
+
+
+def test_an_aim_of_a_ratio_is_not_judged_when_the_other_side_is_missing():
+    assert Row("step", 0.1, None, "ns", 0.5, "other").ok is None
+
+
+def test_no_miss_beside_no_stall_is_even_and_any_miss_beside_none_is_too_many():
+    assert Row("missed", 0, 0, "", 1.0, "cyclictest").ok
+    missed = Row("missed", 3, 0, "", 1.0, "cyclictest")
+    assert missed.ratio == math.inf and missed.ok is False
+    json.dumps(missed.as_json(), allow_nan=False)
+
+
+def test_the_exponent_of_a_power_law_is_its_power():
+    assert bench_steps.exponent({n: 3.0 * n**1.7 for n in (2, 4, 8, 16, 32)}) == pytest.approx(1.7)
+
+
+CYCLICTEST = """# Histogram
+000019 000040
+000020 000050
+000300 000008
+# Total: 000000098
+# Min Latencies: 00019
+# Histogram Overflows: 00002
+"""
+
+
+def test_cyclictests_histogram_gives_quantiles_within_its_bins_and_its_overflows_are_late(monkeypatch):
+    monkeypatch.setattr(bench_programs, "output", lambda command: CYCLICTEST)
+    found = bench_wake.summary(bench_wake.cyclictest(1, 1000))
+    assert found == {"p50_us": 20.2, "p99_us": 5000.5, "late": 2}
+
+
+def test_without_cyclictest_the_loops_own_latency_is_measured_and_the_fix_is_told(monkeypatch):
+    monkeypatch.setattr(bench_wake.shutil, "which", lambda name: None)
+    monkeypatch.setattr(bench_programs, "build", lambda *targets: None)
+    monkeypatch.setattr(bench_programs, "output", lambda command: '{"p50_us": 5.0, "p99_us": 9.0, "late": 1}')
+    monkeypatch.setattr(bench_wake, "program", lambda name: name)
+    found = bench_wake.wake(QUICK, None)
+    assert [row.ours for row in found.rows] == [5.0, 9.0] and all(row.ratio is None for row in found.rows)
+    assert any("sudo apt install rt-tests" in note for note in found.notes)
+
+
+def test_without_pinocchio_and_valgrind_the_steps_are_measured_and_the_fixes_are_told(monkeypatch):
+    stages = {name: {"best_ns": 1.0, "median_ns": 2.0} for name in ("step", "regressor_a5", "regressor_a7")}
+    monkeypatch.setattr(bench_programs.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(bench_programs, "build", lambda *targets: None)
+    monkeypatch.setattr(bench_programs, "nanoseconds", lambda name, processes: dict(stages))
+    monkeypatch.setattr(bench_steps.callgrind, "available", lambda: False)
+    found = bench_steps.steps(QUICK, None)
+    assert len(found.rows) == 3 and all(row.ok is None for row in found.rows)
+    told = " ".join(found.notes)
+    assert "pip install pin" in told and "apt install valgrind" in told
+
+
+def test_without_qemu_the_embedded_core_is_named_with_the_fix(monkeypatch):
+    monkeypatch.setattr(bench_command.bench_embedded.shutil, "which", lambda name: None)
+    found = bench_command.embedded(QUICK, None)
+    assert found.rows == [] and "sudo apt install qemu-system-arm" in found.notes[0]
+
+
+def test_the_picture_holds_ratios_and_growth(tmp_path):
+    growth = {"joints": [2, 4, 8], "reed": [1.0, 2.0, 4.0], "pinocchio": [3.0, 8.0, 20.0]}
+    found = Found([Row("step", 2.0, 8.0, "ns", 0.5, "other")], details={"growth_ns": growth})
+    assert bench_plot.draw(found, "a machine", tmp_path / "bench.png")
+    assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
+    assert not bench_plot.draw(Found(), "a machine", tmp_path / "none.png")
+
+
+@pytest.mark.parametrize("argv, told", [
+    (["bench", "colour"], "wake"),
+    (["bench", "--slices", "0"], "--slices 0"),
+    (["bench", "--processes", "many"], "--processes"),
+    (["bench", "wake", "--out", "/proc/nowhere"], "/proc/nowhere"),
+])
+def test_bad_input_is_one_line_and_status_2(reed, argv, told):
+    done = reed(*argv)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert len(done.stderr.splitlines()) == 1 and told in done.stderr
