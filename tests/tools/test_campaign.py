@@ -62,6 +62,13 @@ def test_a_number_more_leaves_all_others_as_they_were(press_known):
         assert after.pop("wall.damping_Nspm") and after == before
 
 
+def test_a_value_from_the_command_line_is_drawn_no_more(press_known):
+    given = campaign_file.load(CAMPAIGNS / "press_known.toml", extra=("force.desired_N=7",))
+    assert [entry for entry in given.overrides(3) if entry.startswith("force.desired_N")] == ["force.desired_N=7"]
+    assert {key: value for key, value in press_known.values(3).items() if key != "force.desired_N"} == given.values(3)
+    assert given.definition() != press_known.definition()
+
+
 @pytest.mark.parametrize("distribution, support, middle", [
     ("uniform", [2.0, 4.0], 3.0), ("log_uniform", [0.5, 2.0], 1.0), ("integer", [1, 9], 5), ("choice", [10, 20, 30], 20)])
 def test_distributions_fill_their_support_around_its_middle(distribution, support, middle):

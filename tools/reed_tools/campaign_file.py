@@ -115,6 +115,8 @@ def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Ca
     for key in ("name", "scenario", "draws"):
         if key not in head:
             raise UsageError(f"{path}: campaign.{key}: missing")
+    listed = [read_drawn(path, entry, position) for position, entry in enumerate(tree.get("draw", []))]
+    given = {entry.partition("=")[0] for entry in extra}
     fixed = [f"{key}={text_of(value)}" for key, value in tree.get("set", {}).items()]
     return Campaign(head["name"], head.get("description", ""), head["scenario"],
                     whole(path, "campaign.draws", head["draws"], 1),
@@ -122,7 +124,7 @@ def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Ca
                     {key: number(path, f"limits.{key}", tree.get("limits", {}).get(key, standard))
                      for key, standard in LIMITS.items()},
                     [{"name": name, "limit": number(path, f"stable.{name}", limit)} for name, limit in tree.get("stable", {}).items()],
-                    (*fixed, *extra), tuple(read_drawn(path, entry, k) for k, entry in enumerate(tree.get("draw", []))), text)
+                    (*fixed, *extra), tuple(drawn for drawn in listed if drawn.key not in given), text)
 
 
 def whole(path: Path, key: str, value, least: int) -> int:
