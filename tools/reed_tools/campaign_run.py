@@ -56,24 +56,19 @@ def run_draw(campaign: Campaign, index: int, build: str, bus: str) -> Record | N
         if outcome.interrupted:
             return None
         if REFUSED in (outcome.firmware_status, outcome.plant_status):
-            raise UsageError(f"draw {index}: {last_line(plan, 'firmware' if outcome.firmware_status == REFUSED else 'plant')}")
+            raise UsageError(f"draw {index}: {hil.last_words(plan, 'firmware' if outcome.firmware_status == REFUSED else 'plant')}")
         if outcome.plant_status or outcome.stopped_because or outcome.firmware_status not in (0, STOPPED):
             record.status = "died"
             record.message = outcome.stopped_because or f"firmware ended with {outcome.firmware_status}, plant with {outcome.plant_status}"
-            record.message += "".join(f"; {name}: {last_line(plan, name)}" for name in ("firmware", "plant"))
+            record.message += "".join(f"; {name}: {hil.last_words(plan, name)}" for name in ("firmware", "plant"))
             return record
         if outcome.firmware_status == STOPPED:
-            record.status, record.message = "fault", last_line(plan, "firmware")
+            record.status, record.message = "fault", hil.last_words(plan, "firmware")
         recording = telemetry_log.load(plan.log("firmware"), plan.log("plant"))
         figures, signals = summary.build(folder, recording)
         record.checks, record.digest = figures["checks"], figures["digest"]
         record.stability = checks.evaluate(campaign.stable, summary.run_data(effective, recording, signals))
     return record
-
-
-def last_line(plan: hil.Plan, name: str) -> str:
-    lines = plan.output(name).read_text(errors="replace").strip().splitlines() if plan.output(name).exists() else []
-    return lines[-1] if lines else "it printed nothing"
 
 
 class Workers:

@@ -59,6 +59,15 @@ def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.P
                                 start_new_session=True, preexec_fn=die_with_parent)
 
 
+def last_words(plan: Plan, name: str) -> str:
+    """What a program said last, "" if nothing. Its complaints begin with its name; what it did is printed in another
+    stream and may come after them."""
+    path = plan.output(name)
+    lines = path.read_text(errors="replace").strip().splitlines() if path.exists() else []
+    complaints = [line for line in lines if line.startswith("reed_")]
+    return (complaints or lines or [""])[-1]
+
+
 def stop(process: subprocess.Popen) -> int:
     if process.poll() is None:
         process.send_signal(signal.SIGINT)

@@ -102,9 +102,7 @@ def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
 
 
 def last_line(plan: hil.Plan, name: str) -> str:
-    path = plan.output(name)
-    text = path.read_text(errors="replace").strip() if path.exists() else ""
-    return text.splitlines()[-1] if text else f"it printed nothing ({shown(path)})"
+    return hil.last_words(plan, name) or f"it printed nothing ({shown(plan.output(name))})"
 
 
 def shown(path: Path) -> str:
