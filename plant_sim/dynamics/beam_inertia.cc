@@ -1,5 +1,7 @@
 #include "plant_sim/dynamics/beam_inertia.h"
 
+#include "plant_sim/dynamics/processor_clones.h"
+
 namespace reed::plant {
 
 using Eigen::Matrix3d;
@@ -36,7 +38,7 @@ BeamInertia::BeamInertia(double length, double density, double polar, const Rela
   Deform(ElasticVec::Zero(), ElasticVec::Zero());
 }
 
-void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
+REED_CLONES void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   e_ = e;
   e_dot_ = e_dot;
   const BendingVec a = e.segment<kBending>(kA), b = e.segment<kBending>(kB);
@@ -85,7 +87,7 @@ void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   M_(kAngular, kAngular) += polar_ * length_;
 }
 
-BlockVec BeamInertia::Bias(const Motion& base) const {
+REED_CLONES BlockVec BeamInertia::Bias(const Motion& base) const {
   const Vector3d& w = base.omega;
   const BendingVec a = e_.segment<kBending>(kA), b = e_.segment<kBending>(kB);
   const double u = e_[kU], u_dot = e_dot_[kU];

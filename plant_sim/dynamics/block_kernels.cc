@@ -2,13 +2,7 @@
 
 #include <cstring>
 
-// A sanitizer's run time is not ready yet when the loader picks a copy.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define REED_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define REED_CLONES
-#endif
+#include "plant_sim/dynamics/processor_clones.h"
 
 namespace reed::plant {
 

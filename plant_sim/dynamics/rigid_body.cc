@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "plant_sim/dynamics/processor_clones.h"
+
 namespace reed::plant {
 
 using Eigen::Matrix3d;
@@ -38,11 +40,11 @@ RigidBody InParent(const Placement& placement, const RigidBody& body) {
   return {body.mass, placement * body.com, placement.R * body.inertia * placement.R.transpose()};
 }
 
-Inertia6 Turned(const Matrix3d& R, const Inertia6& child) {
+REED_CLONES Inertia6 Turned(const Matrix3d& R, const Inertia6& child) {
   return {R * child.A * R.transpose(), R * child.B * R.transpose(), R * child.D * R.transpose()};
 }
 
-Inertia6 Shifted(const Vector3d& p, const Inertia6& child) {
+REED_CLONES Inertia6 Shifted(const Vector3d& p, const Inertia6& child) {
   const Matrix3d px = Cross(p);
   const Matrix3d B = child.B - child.A * px;
   return {child.A, B, child.D + px * B - child.B.transpose() * px};
@@ -57,7 +59,7 @@ Wrench InParent(const Placement& placement, const Wrench& child) {
   return {force, placement.R * child.moment + placement.p.cross(force)};
 }
 
-Motion Carried(const Motion& parent, const Placement& placement) {
+REED_CLONES Motion Carried(const Motion& parent, const Placement& placement) {
   const Vector3d& w = parent.omega;
   const Vector3d& p = placement.p;
   const auto Rt = placement.R.transpose();

@@ -1,5 +1,7 @@
 #include "plant_sim/dynamics/section.h"
 
+#include "plant_sim/dynamics/processor_clones.h"
+
 namespace reed::plant {
 
 using Eigen::Matrix3d;
@@ -18,7 +20,7 @@ Section::Section(double l, double length) : l_(l), share_(l / length) {
   Deform(ElasticVec::Zero(), ElasticVec::Zero());
 }
 
-void Section::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
+REED_CLONES void Section::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   const BendingVec a = e.segment<kBending>(kA), b = e.segment<kBending>(kB);
   const BendingVec a_dot = e_dot.segment<kBending>(kA), b_dot = e_dot.segment<kBending>(kB);
   const BendingVec Sa = S_ * a, Sb = S_ * b;

@@ -1,0 +1,12 @@
+// REED_CLONES before a function: a second copy of it for processors with AVX2 and fused multiply-add, chosen
+// by the loader. Not for inline functions and templates.
+#pragma once
+
+// "arch=haswell" would ask for that very processor and leave its successors with the plain copy.
+// A sanitizer's run time is not ready yet when the loader picks one.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define REED_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define REED_CLONES
+#endif
