@@ -59,6 +59,25 @@ def test_an_unknown_arm_and_an_unreadable_file_exit_2(inspect_program, tmp_path)
     assert run(inspect_program, "--what").returncode == 2
 
 
+@pytest.mark.parametrize("old, new, says", [
+    ("  [0.0, 0.35, 0.0],\n", "", "bodies: 5 bodies for 4 joints"),
+    ("joint_stiffness = [8000.0,", "joint_stiffness = [-8000.0,", "joint_stiffness[0]: "),
+    ("[0.0, 0.004125, 0.0]", "[0.0, 0.04125, 0.0]", "bodies[2].inertia_about_com: "),
+    ("length = 0.35 ", "length = 350.0 ", "sections[1].length: "),
+    ("[0.0, 0.0, -9.81]", "[0.0, 0.0, -1.0]", "gravity: "),
+])
+@pytest.mark.parametrize("question", [["--states", "-"], ["--modes", "3"]])
+def test_a_wrong_arm_file_is_one_line_with_file_line_and_key(inspect_program, tmp_path, question, old, new, says):
+    sound = (CASES.parents[1] / "config" / "data" / "a5.toml").read_text()
+    assert sound.count(old) == 1
+    path = tmp_path / "arm.toml"
+    path.write_text(sound.replace(old, new))
+    done = run(inspect_program, "--arm", str(path), *question, text='{"cases": []}')
+    assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1, done.stderr
+    where, line, rest = done.stderr.split(":", 2)
+    assert (where, line.isdigit()) == (str(path), True) and says in rest, done.stderr
+
+
 def test_the_tool_offset_beside_the_cases_replaces_the_arms(inspect):
     case = {"q": [0.3, -0.4]}
     with_arms, moved = inspect("p2", [case])[0], inspect("p2", [case], tool_offset=[0.1, 0.2, 0.3])[0]
