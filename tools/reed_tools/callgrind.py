@@ -31,8 +31,9 @@ def count(program: Path) -> dict[str, Count]:
     """By stage."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "counts")
-        done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={MARKED}",
-                               f"--dump-after={MARKED}", "--combine-dumps=yes", f"--callgrind-out-file={out}", str(program), "--count"],
+        done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={MARKED}*",
+                               *(f"--dump-after={name}" for name in clones(program)), "--combine-dumps=yes",
+                               f"--callgrind-out-file={out}", str(program), "--count"],
                               capture_output=True, text=True, timeout=600, env={**os.environ, "LD_BIND_NOW": "1"})
         if done.returncode:
             raise RunError(f"{program.name} under callgrind ended with status {done.returncode}: {done.stderr.strip()[-300:]}")
@@ -46,6 +47,12 @@ def count(program: Path) -> dict[str, Count]:
         found[stage["name"]] = Count(max(mine), sum(mine) / len(mine))
         at += stage["calls"]
     return found
+
+
+def clones(program: Path) -> set[str]:
+    """The marked function by all its names: the compiler may make one of its own for every stage."""
+    symbols = subprocess.run(["nm", str(program)], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(rf"\b{MARKED}\S*", symbols))
 
 
 def totals_after_calls(text: str) -> list[int]:
