@@ -127,6 +127,7 @@ class Separated {
   const AdaptiveState<N, P>& adaptive() const noexcept { return adaptive_; }
   const model::Vec<N>& observed() const noexcept { return observer_.r(); }
   const control::ForceState& force_state() const noexcept { return force_.state(); }
+  double wall_stiffness() const noexcept { return force_.wall_stiffness(); }  // k̂_e (51), N/m
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
 
  private:

@@ -85,7 +85,7 @@ Bytes Encoder::Control(const Snapshot& snapshot, std::int64_t utime) {
   out.z = in.z;
   Assign(out.tip_plan, in.tip_plan);
   Assign(out.observer, in.observer, dof);
-  out.lyapunov = in.lyapunov;
+  out.k_hat_e = in.k_hat_e;
   out.limits = in.limits;
   return Encode(out);
 }

@@ -51,6 +51,7 @@ void FillControl(const strategy::Decision<N>& d, const strategy::Separated<N, P>
   out.e_f = d.force.e_f;
   out.e_f_integral = strategy.force_state().e_f_integral;
   out.z = d.force.z;
+  out.k_hat_e = strategy.wall_stiffness();
   Fill(out.tip_plan, d.tip_plan);
   Fill(out.observer, strategy.observed());
 }

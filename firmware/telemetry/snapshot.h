@@ -59,7 +59,7 @@ struct Control {
   double z = 0.0;             // m/s
   Vec3 tip_plan{};            // m
   PerJoint observer{};        // N·m
-  double lyapunov = 0.0;
+  double k_hat_e = 0.0;       // N/m
   std::int32_t limits = 0;  // bit set
 };
 

@@ -46,7 +46,7 @@ TEST(Encode, ControlHasEveryFieldInItsPlace) {
   EXPECT_EQ(c.z, Value(22, 0, 9));
   EXPECT_EQ(std::vector(c.tip_plan, c.tip_plan + 3), Values(23, 3, 9));
   EXPECT_EQ(c.observer, Values(24, 5, 9));
-  EXPECT_EQ(c.lyapunov, Value(25, 0, 9));
+  EXPECT_EQ(c.k_hat_e, Value(25, 0, 9));
   EXPECT_EQ(c.limits, 9);
 }
 

@@ -69,7 +69,7 @@ inline telemetry::Snapshot SampleSnapshot(std::int64_t cycle, int dof, int num_p
   c.z = Value(22, 0, cycle);
   Fill(c.tip_plan, 23, cycle);
   Fill(c.observer, 24, cycle);
-  c.lyapunov = Value(25, 0, cycle);
+  c.k_hat_e = Value(25, 0, cycle);
   c.limits = static_cast<std::int32_t>(cycle & 0x3F);
 
   Fill(s.adaptation.p_hat, 26, cycle);

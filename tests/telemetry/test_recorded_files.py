@@ -22,7 +22,7 @@ CONTROL = {
     "theta_plan": 7, "theta_d": 8, "theta_d_dot": 9, "e": 10, "s": 11, "v": 12, "v_dot": 13, "tau_law": 14,
     "tau": 15, "D": 16, "normal": 17, "tip_plan": 23, "observer": 24,
 }
-CONTROL_SCALARS = {"t_s": 6, "f_d": 18, "f": 19, "e_f": 20, "e_f_integral": 21, "z": 22, "lyapunov": 25}
+CONTROL_SCALARS = {"t_s": 6, "f_d": 18, "f": 19, "e_f": 20, "e_f_integral": 21, "z": 22, "k_hat_e": 25}
 ADAPTATION = {"p_hat": 26, "eta_hat": 27}
 BUS = [
     "frames_rx", "frames_tx", "lost", "crc_errors", "repeated", "wrong_sequence", "wrong_length", "out_of_range",

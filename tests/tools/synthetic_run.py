@@ -40,8 +40,27 @@ p_nom = [0.0, 0.0]
 p_lo = [0.0, 0.0]
 p_hi = [2.0, 1.0]
 torque_limit = [40.0, 20.0]
+rotor_inertia_reflected = [0.2, 0.1]
+param_shapes = [{param = "m1", body = 1, mass = 1.0}, {param = "m2", viscous_weights = [1.0, 0.5]}]
+bodies = [{mass = 1.0, com = [0.2, 0.0, 0.0], inertia_about_com = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]},
+          {mass = 0.5, com = [0.1, 0.0, 0.0], inertia_about_com = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.01]]}]
 [control]
 law = "separated"
+K_d = [10.0, 5.0]
+Lambda = [20.0, 20.0]
+Gamma_known = 5.0
+k_p = 0.004
+k_i = 0.03
+estimate_wall_stiffness = false
+force_bandwidth_radps = 30.0
+observer = false
+sigma0_gain = 1.0
+sigma0_max = 3.0
+sigma1_max = 0.4
+sigma1_gain = 5.0
+[wall]
+stiffness_Npm = 10000.0
+normal = [0.0, 0.0, 1.0]
 [timing]
 rate_hz = 1000.0
 """

@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullLocator
 
+from reed_tools import lyapunov, lyapunov_plot
 from reed_tools.signals import SOURCES, Signals
 from reed_tools.telemetry_log import Recording
 
@@ -30,7 +31,8 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
             figures = [("joint_error", joint_error(signals)), ("tip_error", tip_error(signals)),
                        ("force", force(signals) if signals.has_wall else None),
                        ("torque", torque(signals, effective["arm"]["torque_limit"])),
-                       ("parameters", parameters(signals, effective["arm"]))]
+                       ("parameters", parameters(signals, effective["arm"])),
+                       ("lyapunov", bookkeeping(signals, effective))]
         if recording.has("REED_TIMING"):
             figures.append(("timing", timing(recording, summary)))
         for name, figure in figures:
@@ -151,6 +153,19 @@ def parameters(signals: Signals, arm: dict):
         row[0].set_ylabel("value [SI]")
     figure.suptitle("Structural parameters as the controller estimates them", x=0.01, ha="left", fontsize=10)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper right", ncols=3)
+    return figure
+
+
+def bookkeeping(signals: Signals, effective: dict):
+    book = lyapunov.of_run(signals, effective)
+    if book is None:
+        return None
+    figure, (top, bottom) = panels(2, 4.6)
+    lyapunov_plot.draw(top, bottom, book)
+    top.set_title("Stability: V of " + ("(42)" if book.force_known else "(45)") + ", from the plant's truth", loc="left")
+    top.set_ylabel("V [J]")
+    bottom.set_ylabel("V̇ [W]")
+    bottom.set_xlabel(TIME)
     return figure
 
 

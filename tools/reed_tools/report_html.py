@@ -21,6 +21,8 @@ CAPTIONS = {
     "force": "Desired, measured and true normal force; below, the true force error.",
     "torque": "Torque as commanded, after all limits.",
     "parameters": "Estimates against the plant's true values (dashed) inside their box (grey). They need not converge to the truth.",
+    "lyapunov": "V of (42) or (45) with its parts, and its derivative by the equations and by differences. The equations know no "
+                "Coulomb friction and no bending: V settles where they balance.",
     "timing": "How long each phase of a cycle took.",
 }
 

@@ -26,8 +26,17 @@ class Signals:
     force_desired: np.ndarray     # N
     force_measured: np.ndarray    # N, by the wrist sensor, tared
     force_true: np.ndarray        # N, normal force of the wall on the robot
+    force_integral: np.ndarray    # N·s, of the force error, as the controller has it
+    contact_force: np.ndarray     # N, true force of wall and disturbance on the robot, base axes, [n, 3]
+    stiffness: np.ndarray         # N/m, estimate of the wall's (51)
+    position: np.ndarray          # rad, motor-side angle as measured, [n, dof]
+    error: np.ndarray             # rad, e (22), [n, dof]
+    s: np.ndarray                 # rad/s, (23), [n, dof]
+    observer: np.ndarray          # N·m, r (47), [n, dof]
     torque: np.ndarray            # N·m, as commanded, [n, dof]
     p_hat: np.ndarray             # [n, number of parameters]
+    eta_hat: np.ndarray           # (39), [n, number of parameters]
+    sigma: np.ndarray             # N·m·s/rad, N·m: (40), (41), [n, 2]
     source: np.ndarray            # index into SOURCES
     has_wall: bool
 
@@ -61,12 +70,17 @@ def join(recording: Recording) -> Signals | None:
         rows = order[np.searchsorted(table["cycle"], cycles, sorter=order)]
         return table[name][rows]
 
-    joint_error = pick(control, "theta_plan") - pick(measured, "position")
+    position = pick(measured, "position")
+    joint_error = pick(control, "theta_plan") - position
     tip_error = pick(plant, "tip") - pick(control, "tip_plan")
     return Signals(
         t=pick(control, "t_s"), cycle=cycles, joint_error=joint_error,
         tangential_joint=remove_component(joint_error, pick(control, "D")),
         tip_error=tip_error, tangential_tip=remove_component(tip_error, pick(control, "normal")),
         force_desired=pick(control, "f_d"), force_measured=pick(control, "f"), force_true=pick(plant, "normal_force"),
-        torque=pick(control, "tau"), p_hat=pick(adaptation, "p_hat"), source=pick(control, "force_source"),
+        force_integral=pick(control, "e_f_integral"), contact_force=pick(plant, "contact_force"),
+        stiffness=pick(control, "k_hat_e"), position=position, error=pick(control, "e"), s=pick(control, "s"),
+        observer=pick(control, "observer"), torque=pick(control, "tau"), p_hat=pick(adaptation, "p_hat"),
+        eta_hat=pick(adaptation, "eta_hat"),
+        sigma=np.stack([pick(adaptation, "sigma0"), pick(adaptation, "sigma1")], axis=1), source=pick(control, "force_source"),
         has_wall=bool(np.any(pick(plant, "gap") < 1e8)))

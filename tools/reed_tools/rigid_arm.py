@@ -1,0 +1,70 @@
+"""The arm's rigid model for many poses at once, from the [arm] table alone: body by body with M = Σ m JᵥᵀJᵥ + JᵤᵀIJᵤ,
+a route of its own beside the firmware's. q: [n, dof], rad; Craig DH, T_i = Rx(α) Tx(a) Rz(θ) Tz(d)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass
+class Poses:
+    """Link frames in base axes, [dof, n, …]."""
+
+    R: np.ndarray  # [dof, n, 3, 3]
+    p: np.ndarray  # [dof, n, 3], m
+
+
+def poses(arm: dict, q: np.ndarray) -> Poses:
+    R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
+    rotations, origins = [], []
+    for joint, (alpha, a, d) in enumerate(arm["dh"]):
+        c, s, zero, one = np.cos(q[:, joint]), np.sin(q[:, joint]), np.zeros(len(q)), np.ones(len(q))
+        ca, sa = np.cos(alpha), np.sin(alpha)
+        local = np.stack([c, -s, zero, s * ca, c * ca, -sa * one, s * sa, c * sa, ca * one], axis=1).reshape(-1, 3, 3)
+        p = p + R @ np.array([a, -d * sa, d * ca])
+        R = R @ local
+        rotations.append(R)
+        origins.append(p)
+    return Poses(np.array(rotations), np.array(origins))
+
+
+def jacobians(at: Poses, body: int, offset) -> tuple[np.ndarray, np.ndarray]:
+    """J_v, J_w of a point fixed to a link, each [n, 3, dof]. offset: m, axes of that link."""
+    dof, count = at.p.shape[:2]
+    point = at.p[body] + at.R[body] @ np.asarray(offset)
+    J_v, J_w = np.zeros((count, 3, dof)), np.zeros((count, 3, dof))
+    for joint in range(body + 1):
+        axis = at.R[joint][:, :, 2]
+        J_w[:, :, joint] = axis
+        J_v[:, :, joint] = np.cross(axis, point - at.p[joint])
+    return J_v, J_w
+
+
+def tip_jacobian(arm: dict, q: np.ndarray) -> np.ndarray:
+    return jacobians(poses(arm, q), len(arm["dh"]) - 1, arm.get("tool_offset", [0.0, 0.0, 0.0]))[0]
+
+
+def tip(arm: dict, q: np.ndarray) -> np.ndarray:
+    at = poses(arm, q)
+    return at.p[-1] + at.R[-1] @ np.asarray(arm.get("tool_offset", [0.0, 0.0, 0.0]))
+
+
+def mass_matrix(arm: dict, q: np.ndarray) -> np.ndarray:
+    """M(q) of the true bodies without rotors, [n, dof, dof], kg·m²."""
+    at = poses(arm, q)
+    M = np.zeros((len(q), q.shape[1], q.shape[1]))
+    for number, body in enumerate(arm["bodies"]):
+        J_v, J_w = jacobians(at, number, body["com"])
+        local = np.swapaxes(at.R[number], 1, 2) @ J_w
+        M += body["mass"] * np.swapaxes(J_v, 1, 2) @ J_v
+        M += np.swapaxes(local, 1, 2) @ np.array(body["inertia_about_com"]) @ local
+    return M
+
+
+def viscous_friction(arm: dict) -> np.ndarray:
+    """True F_v per joint, N·m·s/rad."""
+    total = np.zeros(len(arm["dh"]))
+    for shape in arm["param_shapes"]:
+        if "viscous_weights" in shape:
+            total += arm["p_true"][arm["param_names"].index(shape["param"])] * np.array(shape["viscous_weights"])
+    return total
