@@ -103,14 +103,14 @@ struct ControlConfig {
   std::string law = "separated";  // names: config/README.md
   std::vector<double> K_d;        // N·m·s/rad
   std::vector<double> Lambda;     // 1/s
-  double Gamma_known = 5.0;       // adaptation gain (34), scaled per parameter by its box width squared
+  double Gamma_known = 5.0;       // adaptation gain (34)
   double Gamma_unknown = 0.0;
-  double k_p = 4e-3;       // m/(s·N)
-  double k_i = 30e-3;      // m/(s²·N)
-  double a_force = 200.0;  // 1/s, force filter
+  double k_p = 4e-3;      // m/(s·N)
+  double k_i = 30e-3;     // m/(s²·N)
+  double a_force = 60.0;  // 1/s, force filter
   double normal_speed_limit_mps = 0.03;
   bool estimate_wall_stiffness = true;
-  double force_bandwidth_radps = 20.0;          // of k_p times the estimated wall stiffness (52)
+  double force_bandwidth_radps = 30.0;          // of k_p times the estimated wall stiffness (52)
   double sigma0_gain = 1.0, sigma1_gain = 5.0;  // c_0, c_1
   double sigma0_max = 3.0, sigma1_max = 0.4;
   double phi = 0.03;  // rad/s, boundary layer of sat(s/phi)

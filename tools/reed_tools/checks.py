@@ -11,6 +11,7 @@ from reed_tools.signals import FAULT, SOURCES, Signals
 from reed_tools.telemetry_log import Recording
 
 IMPACT_S = 0.3           # how long after first contact an impact may last
+SETTLED = 0.01           # share of its box by which an estimate may still move and counts as settled
 CONTACT_N = 0.01         # true normal force that counts as contact
 
 
@@ -21,6 +22,7 @@ class RunData:
     rate_hz: float
     torque_limits: list[float]
     boxes: list[tuple[float, float]]
+    sigma_limits: tuple[float, float] = (1.0, 1.0)
 
     def last_second(self) -> dict:
         return metrics.figures(self.signals, metrics.last_second(self.signals, self.rate_hz))
@@ -151,6 +153,27 @@ def parameters_outside_box(run: RunData):
     return int(outside.any(axis=0).sum())
 
 
+def estimate_thirds(run: RunData) -> np.ndarray:
+    """Means of every estimate over the three thirds of the run, p as a share of its box, sigma of its bound."""
+    low, high = (np.array(side) for side in zip(*run.boxes))
+    estimates = np.hstack([run.signals.p_hat / (high - low), run.signals.sigma / np.array(run.sigma_limits)])
+    third = len(estimates) // 3
+    return np.array([estimates[k * third:(k + 1) * third].mean(axis=0) for k in range(3)])
+
+
+def estimate_drift_percent(run: RunData):
+    """largest change of an estimate's mean from the middle to the last third of the run, p in percent of its box, sigma of its bound"""
+    _, middle, last = estimate_thirds(run)
+    return 100.0 * float(np.max(np.abs(last - middle)))
+
+
+def estimate_drift_ratio(run: RunData):
+    """the same change over that from the first to the middle third, where it is more than 1 %: 1 drifts steadily, less settles"""
+    first, middle, last = estimate_thirds(run)
+    moving = np.abs(last - middle) > SETTLED
+    return float(np.max(np.abs(last - middle)[moving] / np.abs(middle - first)[moving])) if np.any(moving) else 0.0
+
+
 def faults(run: RunData):
     """number of times the controller entered fault"""
     mode = run.recording.tables["REED_CONTROL"]["mode"]
@@ -202,8 +225,8 @@ FIGURES = {function.__name__: function for function in (
     joint_peak_mrad_last_second, joint_rms_mrad, joint_peak_mrad, tip_rms_mm_last_second,
     tangential_tip_rms_mm_last_second, tip_rms_mm, force_rms_N_last_second, force_rms_percent_last_second,
     force_peak_N_last_second, impact_peak_N, contact_force_max_N, contact_force_max_percent_of_desired, contact_lost_ms,
-    torque_peak_percent, torque_step_at_switch_percent, source_switch_cycles, parameters_outside_box, faults, missed_cycles,
-    missed_cycles_in_row, overruns, heap_allocations, page_faults, telemetry_dropped, frames_lost, crc_errors)}
+    torque_peak_percent, torque_step_at_switch_percent, source_switch_cycles, parameters_outside_box,
+    estimate_drift_percent, estimate_drift_ratio, faults, missed_cycles, missed_cycles_in_row, overruns, heap_allocations, page_faults, telemetry_dropped, frames_lost, crc_errors)}
 
 ALWAYS = {"name": "faults", "limit": 0}  # a run that ended in a fault never passes, whatever the scenario asks
 

@@ -45,3 +45,8 @@ def load(path: Path) -> dict:
 
 def parameter_boxes(effective: dict) -> list[tuple[float, float]]:
     return list(zip(effective["arm"]["p_lo"], effective["arm"]["p_hi"]))
+
+
+def sigma_limits(effective: dict) -> tuple[float, float]:
+    control = effective["control"]
+    return control["sigma0_max"], control["sigma1_max"]

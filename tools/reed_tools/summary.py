@@ -44,7 +44,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
 
 def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
     return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
-                          scenario.parameter_boxes(effective))
+                          scenario.parameter_boxes(effective), scenario.sigma_limits(effective))
 
 
 def bus(recording: Recording) -> dict:
