@@ -14,6 +14,7 @@ COMMANDS = {
     "inspect": ("inspect_command", "the model and the law as numbers, by the code the firmware runs"),
     "spy": ("spy_command", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("doctor_command", "what this machine can and cannot do, with the exact fixes"),
+    "paper": ("paper_command", "the paper's experiments, reproduced on one page"),
     "bench": ("bench_command", "speed and latency beside what they are compared with"),
     "test": ("test_command", "all tests, or those that match a filter"),
 }
