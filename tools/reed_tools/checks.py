@@ -153,10 +153,10 @@ def parameters_outside_box(run: RunData):
     return int(outside.any(axis=0).sum())
 
 
-def estimate_thirds(run: RunData) -> np.ndarray:
+def estimate_thirds(of: RunData) -> np.ndarray:
     """Means of every estimate over the three thirds of the run, p as a share of its box, sigma of its bound."""
-    low, high = (np.array(side) for side in zip(*run.boxes))
-    estimates = np.hstack([run.signals.p_hat / (high - low), run.signals.sigma / np.array(run.sigma_limits)])
+    low, high = (np.array(side) for side in zip(*of.boxes))
+    estimates = np.hstack([of.signals.p_hat / (high - low), of.signals.sigma / np.array(of.sigma_limits)])
     third = len(estimates) // 3
     return np.array([estimates[k * third:(k + 1) * third].mean(axis=0) for k in range(3)])
 
