@@ -36,6 +36,19 @@ def test_many_poses_at_once_are_each_pose_alone():
         np.testing.assert_allclose(together[k], rigid_arm.mass_matrix(ARM, q[k:k + 1])[0], atol=1e-14)
 
 
+def test_another_truth_moves_bodies_and_friction():
+    """a5's links are nothing but their parameters: scaled together, all of M and F_v scale; one alone adds a mass at its place."""
+    q = np.array([[0.1, 0.6, -1.0, -0.7, 0.2]])
+    half = rigid_arm.true_arm({"arm": ARM, "plant": {"p_true": [0.5 * p for p in ARM["p_true"]]}})
+    np.testing.assert_allclose(rigid_arm.mass_matrix(half, q), 0.5 * rigid_arm.mass_matrix(ARM, q), atol=1e-12)
+    np.testing.assert_allclose(rigid_arm.viscous_friction(half), 0.5 * rigid_arm.viscous_friction(ARM))
+    heavier = rigid_arm.true_arm({"arm": ARM, "plant": {"p_true": [*ARM["p_true"][:5], 0.8]}})
+    J_v, J_w = rigid_arm.jacobians(rigid_arm.poses(ARM, q), 4, [0.0, 0.0, 0.0])
+    hand = 0.3 * (np.swapaxes(J_v, 1, 2) @ J_v + 0.00064 * np.swapaxes(J_w, 1, 2) @ J_w)
+    np.testing.assert_allclose(rigid_arm.mass_matrix(heavier, q) - rigid_arm.mass_matrix(ARM, q), hand, atol=1e-12)
+    assert rigid_arm.true_arm({"arm": ARM, "plant": {}}) is ARM
+
+
 def test_kinetic_part_is_that_of_the_true_arm_with_its_rotors():
     s = constant([0.1, -0.2, 0.3, 0.05, -0.1], 50)
     signals, effective = run("known", "separated", s=s)

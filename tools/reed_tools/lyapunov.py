@@ -39,6 +39,7 @@ def of_run(signals: Signals | None, effective: dict) -> Bookkeeping | None:
     law = effective["control"]["law"]
     if signals is None or law not in WITH_V or len(signals.t) < 3 or signals.dof != len(effective["arm"]["dh"]):
         return None
+    effective = {**effective, "arm": rigid_arm.true_arm(effective)}
     rows = slice(None, None, 1 + len(signals.t) // MOST_ROWS)
     unknown = np.all(signals.source == SOURCES.index("unknown"))
     M = rigid_arm.mass_matrix(effective["arm"], signals.position[rows])

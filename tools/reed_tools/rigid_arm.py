@@ -61,6 +61,35 @@ def mass_matrix(arm: dict, q: np.ndarray) -> np.ndarray:
     return M
 
 
+def true_arm(effective: dict) -> dict:
+    """The [arm] table as the plant has it: with plant.p_true instead of the arm's own truth, where that is given."""
+    arm, wanted = effective["arm"], effective.get("plant", {}).get("p_true")
+    if not wanted:
+        return arm
+    more = dict(zip(arm["param_names"], np.array(wanted) - np.array(arm["p_true"])))
+    totals = [np.array(moments(body["mass"], body["com"], body["inertia_about_com"]), dtype=object) for body in arm["bodies"]]
+    for shape in arm["param_shapes"]:
+        if "body" in shape:
+            unit = np.array(moments(shape["mass"], shape["com"], shape["inertia_com"]), dtype=object)
+            totals[shape["body"] - 1] = totals[shape["body"] - 1] + more[shape["param"]] * unit
+    return {**arm, "p_true": list(wanted), "bodies": [body_of(*total) for total in totals]}
+
+
+def steiner(mass: float, com: np.ndarray) -> np.ndarray:
+    return mass * (com @ com * np.eye(3) - np.outer(com, com))
+
+
+def moments(mass: float, com, inertia_about_com) -> tuple:
+    """Mass, first and second moment about the frame's origin: these add up, centres of mass do not."""
+    com = np.array(com)
+    return mass, mass * com, np.array(inertia_about_com) + steiner(mass, com)
+
+
+def body_of(mass: float, first: np.ndarray, second: np.ndarray) -> dict:
+    com = first / mass if abs(mass) > 1e-12 else np.zeros(3)
+    return {"mass": mass, "com": com, "inertia_about_com": second - steiner(mass, com)}
+
+
 def viscous_friction(arm: dict) -> np.ndarray:
     """True F_v per joint, N·m·s/rad."""
     total = np.zeros(len(arm["dh"]))
