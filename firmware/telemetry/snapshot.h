@@ -60,7 +60,7 @@ struct Control {
   Vec3 tip_plan{};            // m
   PerJoint observer{};        // N·m
   double k_hat_e = 0.0;       // N/m
-  std::int32_t limits = 0;  // bit set
+  std::int32_t limits = 0;    // bit set
 };
 
 /// lcmtypes/adaptation_t.lcm

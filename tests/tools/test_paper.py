@@ -36,6 +36,14 @@ def test_the_three_phases_are_those_of_a_textbook_course():
     assert 0.07 < seen.stable_rms_N < 0.12
 
 
+def test_a_force_that_comes_from_below_has_no_decreasing_phase():
+    """Later ripple inside the band is no peak."""
+    signals, _ = pressing(lambda t: np.where(t < 1.0, 8.0 * (t - 0.4) / 0.6, 8.0 + 0.2 * np.sin(9.0 * t)))
+    seen = paper_figures.phases(signals)
+    assert seen.stable_s == pytest.approx(0.4 + 0.95 * 0.6, abs=3e-3)
+    assert seen.peak_s == pytest.approx(seen.stable_s, abs=2e-3) and seen.peak_N == pytest.approx(7.6, abs=0.02)
+
+
 def test_a_force_that_leaves_the_band_at_the_end_never_was_stable():
     signals, _ = pressing(lambda t: np.where(t > 2.9, 9.0, 8.0))
     seen = paper_figures.phases(signals)

@@ -14,7 +14,8 @@ STABLE_S = 0.3       # and must stay there for at least this long
 
 @dataclass
 class Phases:
-    """Fig. 9: rising until the peak, decreasing until the force stays within 5 % of what is desired, then stable."""
+    """Fig. 9: rising until the largest force before it is stable, decreasing until it stays within 5 % of what is finally desired,
+    then stable. A force that comes from below without overshoot has no decreasing phase: peak and stable coincide."""
 
     contact_s: float
     peak_s: float
@@ -29,13 +30,12 @@ def phases(signals: Signals) -> Phases | None:
     touching = np.flatnonzero(f > CONTACT_N)
     if not len(touching):
         return None
-    peak = int(touching[0] + np.argmax(f[touching[0]:]))
-    final = float(f_d[-1])
-    outside = np.flatnonzero(np.abs(f_d - f) > BAND * final)
-    first = int(outside[-1]) + 1 if len(outside) else int(touching[0])
-    first = max(first, peak)
+    start, final = int(touching[0]), float(f_d[-1])
+    outside = np.flatnonzero(np.abs(final - f) > BAND * final)
+    first = max(start, int(outside[-1]) + 1 if len(outside) else 0)
+    peak = start + int(np.argmax(f[start:first + 1]))
     stable = final > 0 and first < len(t) and t[-1] - t[first] >= STABLE_S
-    return Phases(float(t[touching[0]]), float(t[peak]), float(f[peak]), float(t[first]) if stable else None,
+    return Phases(float(t[start]), float(t[peak]), float(f[peak]), float(t[first]) if stable else None,
                   metrics.rms((f_d - f)[first:]) if stable else None)
 
 

@@ -121,8 +121,9 @@ def write(folder: Path, results: list[Result]) -> Path:
               f"<h2>Comparison of laws, unknown force</h2>{comparison(unknown, False)}",
               f"<h2>Comparison of laws, unknown force, joint reference</h2>{comparison(page.group('joint'), False)}",
               f"<h2>The three phases of the force</h2>{phase_table(known)}"
-              "<p class=note>Rising: contact to the largest force. Decreasing: until the error stays within 5 % of the desired force to the "
-              "end, for 0.3 s at least. Stable: from then on.</p>"]
+              "<p class=note>Rising: contact to the largest force before it is stable. Decreasing: until it stays within 5 % of what is "
+              "finally desired, for 0.3 s at least. Stable: from then on. A force that comes from below without overshoot has no decreasing "
+              "phase.</p>"]
     parts += [panel(figure, draw, pair, folder) for figure, draw, pair in page.pictures()]
     for name, pair in (("known force, (42) and (44)", page.pair("known")), ("unknown force, (45) and (46)", page.pair("unknown"))):
         data = paper_pictures.png(paper_pictures.bookkeeping, pair)
