@@ -31,8 +31,8 @@ def count(program: Path) -> dict[str, Count]:
     """By stage."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "counts")
-        done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--toggle-collect={MARKED}*",
-                               *(f"--dump-after={name}" for name in clones(program)), "--combine-dumps=yes",
+        done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--combine-dumps=yes",
+                               *(f"--{what}={name}" for name in clones(program) for what in ("toggle-collect", "dump-after")),
                                f"--callgrind-out-file={out}", str(program), "--count"],
                               capture_output=True, text=True, timeout=600, env={**os.environ, "LD_BIND_NOW": "1"})
         if done.returncode:
