@@ -24,7 +24,6 @@ ALONG_D = 1e-3           # rad per unit of D
 FORCE_ERROR_N = 0.2
 IMPACT_N = 9.0
 TORQUE_STEP = 0.5
-TORQUE_LIMIT = (40.0, 20.0)
 
 EFFECTIVE = """
 [scenario]

@@ -55,11 +55,18 @@ def dispatch(argv: list[str]) -> int:
     name, rest = argv[0], argv[1:]
     if name not in COMMANDS:
         raise UsageError(f"unknown command `{name}`; commands: {', '.join(COMMANDS)}")
-    module_name, text = COMMANDS[name]
-    module = importlib.import_module(f"reed_tools.{module_name}")
+    module = module_of(name)
     if hasattr(module, "pass_through"):
         return module.pass_through(rest)
-    parser = OneLineParser(prog=f"tools/reed {name}", description=text + ".", epilog=EXIT_STATUS,
+    return module.run(parser_of(name).parse_args(rest))
+
+
+def module_of(name: str):
+    return importlib.import_module(f"reed_tools.{COMMANDS[name][0]}")
+
+
+def parser_of(name: str) -> OneLineParser:
+    parser = OneLineParser(prog=f"tools/reed {name}", description=COMMANDS[name][1] + ".", epilog=EXIT_STATUS,
                            formatter_class=argparse.RawDescriptionHelpFormatter)
-    module.add_arguments(parser)
-    return module.run(parser.parse_args(rest))
+    module_of(name).add_arguments(parser)
+    return parser
