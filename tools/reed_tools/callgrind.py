@@ -32,7 +32,7 @@ def count(program: Path) -> dict[str, Count]:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "counts")
         done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--combine-dumps=yes",
-                               *(f"--{what}={name}" for name in clones(program) for what in ("toggle-collect", "dump-after")),
+                               f"--toggle-collect={MARKED}", f"--dump-after={MARKED}",
                                f"--callgrind-out-file={out}", str(program), "--count"],
                               capture_output=True, text=True, timeout=600, env={**os.environ, "LD_BIND_NOW": "1"})
         if done.returncode:
@@ -47,12 +47,6 @@ def count(program: Path) -> dict[str, Count]:
         found[stage["name"]] = Count(max(mine), sum(mine) / len(mine))
         at += stage["calls"]
     return found
-
-
-def clones(program: Path) -> set[str]:
-    """The marked function by all its names: the compiler may make one of its own for every stage."""
-    symbols = subprocess.run(["nm", str(program)], capture_output=True, text=True, check=True).stdout
-    return set(re.findall(rf"\b{MARKED}\S*", symbols))
 
 
 def totals_after_calls(text: str) -> list[int]:
