@@ -131,12 +131,7 @@ class Rules {
  private:
   [[noreturn]] void Fail(const std::string& key, const std::string& problem) const {
     // Find where the key was written, so that the line can be named.
-    const toml::node* where = nullptr;
-    std::string path;
-    for (const char c : key) path += c;
-    const auto view = const_cast<Document&>(doc_).root().at_path(path);
-    where = view.node();
-    doc_.Fail(where, key, problem);
+    doc_.Fail(const_cast<Document&>(doc_).root().at_path(key).node(), key, problem);
   }
   void PerJoint(const std::string& key, const std::vector<double>& list, bool needed) const {
     if (list.empty() && needed) Fail(key, "missing; one number per joint");

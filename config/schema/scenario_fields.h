@@ -158,7 +158,7 @@ void Fields(V& v, LimitConfig& c) {
   v.Number("torque_scale", c.torque_scale, {"1", 0.01, 1}, "of the arm's torque limit");
   v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 1, 1e7}, "largest change of a commanded torque");
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
-           "distance to the joint limit that trips");
+           "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
   v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4}, "measured force magnitude that trips");
   v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},

@@ -12,11 +12,6 @@
 
 namespace reed::control {
 
-struct RobustGains {
-  double dead_zone = 0.0;  // rad/s
-  double leak = 0.0;       // 1/s
-};
-
 template <int N>
 Vec<N> DeadZone(const Vec<N>& s, double dead_zone) noexcept {
   if (dead_zone <= 0.0) return s;

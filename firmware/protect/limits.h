@@ -17,7 +17,7 @@ template <int N>
 struct LimitValues {
   Vec<N> torque = Vec<N>::Zero();        // N·m, symmetric
   double torque_step = 0.0;              // N·m per cycle
-  Vec<N> position_min = Vec<N>::Zero();  // rad, margin already taken off
+  Vec<N> position_min = Vec<N>::Zero();  // rad, half the margin taken off
   Vec<N> position_max = Vec<N>::Zero();
   Vec<N> speed = Vec<N>::Zero();  // rad/s
   double contact_force = 0.0;     // N
@@ -55,8 +55,8 @@ class Limits {
   /// Beyond holding and ramping down.
   bool TooOld(int age) const noexcept { return age > 2 * limit_.stop_age; }
 
-  /// The torque that may be sent instead of `tau_law`. Old measurements: held up to hold_age, beyond stop_age
-  /// the torque ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
+  /// The torque that may be sent instead of `tau_law`. Measurements beyond hold_age: the last torque is held;
+  /// beyond stop_age: it ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
   Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, Verdict& verdict) noexcept {
     for (int i = 0; i < N; ++i) {
       if (std::isfinite(tau_law[i])) continue;
