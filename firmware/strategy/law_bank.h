@@ -8,7 +8,7 @@
 //   paper_printed    (31)-(34), (36)-(41) as printed, the paper's gains
 //   paper_corrected  the same corrected, the paper's gains, no dead-zone, no leak
 //
-// RT: safe; FindLaw is set-up.
+// RT: safe; LawBank::Find is set-up.
 #pragma once
 
 #include <array>

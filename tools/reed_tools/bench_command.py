@@ -1,12 +1,10 @@
 """tools/reed bench: the timing budget's figures beside what they are compared with, in one run; ratios first."""
 
-import importlib
-import importlib.util
 import json
 import time
 from pathlib import Path
 
-from reed_tools import bench_embedded, bench_loop, bench_machine, bench_plot, bench_rows, bench_steps, bench_wake
+from reed_tools import bench_embedded, bench_loop, bench_machine, bench_plant, bench_plot, bench_rows, bench_steps, bench_wake
 from reed_tools.bench_rows import Found, Row
 from reed_tools.errors import ReedError, UsageError
 from reed_tools.paths import ROOT
@@ -28,9 +26,8 @@ MEASURES = {"steps": (bench_steps.steps, "control step and regressor beside Pino
             "telemetry": (bench_loop.telemetry, "telemetry's cost"),
             "calls": (bench_loop.system_calls, "system calls per cycle"),
             "rate": (bench_loop.highest_rate, "the highest rate"),
-            "embedded": (embedded, "the control core on a Cortex-M7")}
-if importlib.util.find_spec("reed_tools.bench_plant"):
-    MEASURES["plant"] = (importlib.import_module("reed_tools.bench_plant").measure, "the plant beside MuJoCo")
+            "embedded": (embedded, "the control core on a Cortex-M7"),
+            "plant": (bench_plant.measure, "the plant beside MuJoCo")}
 
 
 def add_arguments(parser) -> None:
