@@ -9,6 +9,7 @@ from reed_tools.errors import RunError
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release")).resolve()
 SCENARIOS = ROOT / "config" / "scenarios"
+ARMS = ROOT / "config" / "arms"
 
 
 def program(name: str) -> Path:
