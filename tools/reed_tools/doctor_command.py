@@ -15,7 +15,7 @@ from reed_tools.paths import ROOT
 from reed_tools.result_table import console, grid
 
 MCL_CURRENT = 1
-LIMITS_FIX = "echo '@realtime - rtprio 90\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
+LIMITS_FIX = "echo '@realtime - rtprio 98\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
              "sudo groupadd -f realtime; sudo usermod -aG realtime $USER; log in again"
 
 
