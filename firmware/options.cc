@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+#include <string>
 
 namespace reed {
 
@@ -16,12 +16,11 @@ Options ParseOptions(int argc, char** argv) {
   app.add_option("--arm", options.load.arm, "arm: a name in config/arms or a file; default: the scenario's");
   app.add_option("--set", options.load.set, "SECTION.KEY=VALUE, may be repeated")->allow_extra_args(false);
   app.add_option("--bus", options.bus, "socketcan:IFACE or udp[:GROUP:PORT]")->capture_default_str();
-  app.add_option("--clock", options.clock,
+  std::string clock = "wall";
+  app.add_option("--clock", clock,
                  "wall: paced by the clock; lockstep: the next cycle starts when this one is done")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ClockKind>{
-                                              {"wall", ClockKind::kWall}, {"lockstep", ClockKind::kLockstep}})
-                      .description("{wall,lockstep}"))
-      ->default_str("wall");
+      ->check(CLI::IsMember({"wall", "lockstep"}))
+      ->capture_default_str();
   app.add_flag("--enable", options.enable,
                "open the brakes once every joint is measured; without it the arm is only watched");
   app.add_option("--log", options.log, "LCM event log that gets every message");
@@ -38,6 +37,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_firmware: %s (reed_firmware --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
+  options.clock = clock == "wall" ? ClockKind::kWall : ClockKind::kLockstep;
   return options;
 }
 

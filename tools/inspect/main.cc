@@ -64,8 +64,11 @@ int main(int argc, char** argv) {
       reed::inspect::WriteBeamModes(std::cout, reed::inspect::ParseBeam(beam), modes);
     }
     return 0;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongInput;
+    std::cerr << "reed_inspect: " << error.what() << " (tools/reed inspect --help lists the options)\n";
+    return kWrongInput;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return kWrongInput;
