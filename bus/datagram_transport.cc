@@ -40,7 +40,7 @@ int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t de
   while (count < enough && alive_ && deadline_ns - NowNs() > kPatient_ns) {
     count += Await(out.subspan(static_cast<std::size_t>(count)), enough - count);
   }
-  if (count == enough && enough > 0) return count;
+  if (!alive_ || (count == enough && enough > 0)) return count;
   bool waiting = false;
   do {
     waiting = count < enough && WaitReadable(receive_fd_, deadline_ns);

@@ -18,6 +18,8 @@ namespace {
 constexpr unsigned kEntries = 8;  // of the submission ring: the one request, armed again now and then
 constexpr std::uint16_t kGroup = 0;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+// One wait: an interface that goes away completes a single request, which a wait for several does not see.
+constexpr std::int64_t kLongestWait_ns = 20'000'000;
 
 std::int64_t NowNs() noexcept {
   timespec now{};
@@ -143,7 +145,8 @@ int UringReceiver::Wait(int wanted, int limit, std::int64_t deadline_ns) noexcep
   for (bool in_time = true; in_time && error_ == 0 && (count_ < wanted || wanted == 0);) {
     const std::int64_t left_ns = deadline_ns - NowNs();
     in_time = left_ns > 0 && wanted > 0;
-    const int entered = Enter(in_time ? static_cast<unsigned>(wanted - count_) : 0, left_ns);
+    const int entered =
+        Enter(in_time ? static_cast<unsigned>(wanted - count_) : 0, std::min(left_ns, kLongestWait_ns));
     if (entered < 0 && entered != -ETIME && entered != -EINTR) error_ = -entered;
     Harvest(limit);
   }

@@ -76,9 +76,11 @@ class Limits {
     }
     const Vec<N> bounded = tau.cwiseMax(-limit_.torque).cwiseMin(limit_.torque);
     if (bounded != tau) verdict.limits |= LimitBit(Reason::kTorque);
-    const Vec<N> step = (bounded - sent_).cwiseMax(-limit_.torque_step).cwiseMin(limit_.torque_step);
-    if (step != bounded - sent_) verdict.limits |= LimitBit(Reason::kTorqueRate);
-    sent_ += step;
+    const Vec<N> wanted = bounded - sent_;
+    const Vec<N> step = wanted.cwiseMax(-limit_.torque_step).cwiseMin(limit_.torque_step);
+    if (step != wanted) verdict.limits |= LimitBit(Reason::kTorqueRate);
+    // Where nothing limits, the very torque of the law: sent + (law - sent) would be off by a rounding.
+    for (int i = 0; i < N; ++i) sent_[i] = step[i] == wanted[i] ? bounded[i] : sent_[i] + step[i];
     return sent_;
   }
 
