@@ -51,8 +51,9 @@ void Publisher::Run() {
     // Read before draining: what was put before Finish is then surely drained in this last round.
     last_round = finish_.load(std::memory_order_acquire);
     while (queue_.TryPop(record)) Publish(record);
-    // Asking for data this often costs less than a wake-up per record would cost the simulation.
-    if (!last_round) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    // Asking for data this often costs less than a wake-up per record would cost the simulation; a listener
+    // wants small bursts, a log alone does not mind large ones.
+    if (!last_round) std::this_thread::sleep_for(std::chrono::milliseconds(network_ ? 2 : 10));
   }
   if (log_ && !log_->Flush() && log_complete_) {
     log_complete_ = false;
