@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
+
+#include "bus/monotonic.h"
 
 namespace reed::bus {
 
@@ -71,13 +72,10 @@ int SendBatch::Send(int fd, int count) noexcept {
 }
 
 bool WaitReadable(int fd, std::int64_t deadline_ns) noexcept {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   while (true) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const std::int64_t left_ns = deadline_ns - (now.tv_sec * kSecond_ns + now.tv_nsec);
+    const std::int64_t left_ns = deadline_ns - NowNs();
     if (left_ns <= 0) return false;
-    const timespec timeout{left_ns / kSecond_ns, left_ns % kSecond_ns};
+    const timespec timeout{left_ns / kNsPerSecond, left_ns % kNsPerSecond};
     pollfd entry{fd, POLLIN, 0};
     const int ready = ppoll(&entry, 1, &timeout, nullptr);
     if (ready > 0) return true;

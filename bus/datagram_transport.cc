@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ctime>
+
+#include "bus/monotonic.h"
 
 namespace reed::bus {
 namespace {
@@ -14,12 +15,6 @@ constexpr int kMaxBatchesPerDrain = 16;
 /// enough.
 constexpr std::int64_t kPatient_ns = 50'000'000;
 constexpr timeval kReceiveTimeout{0, 10'000};
-
-std::int64_t NowNs() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 bool MeansBusLost(int error) noexcept {
   return error == ENETDOWN || error == ENODEV || error == ENXIO || error == ENETUNREACH || error == EBADF;

@@ -10,22 +10,16 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
+
+#include "bus/monotonic.h"
 
 namespace reed::bus {
 namespace {
 
 constexpr unsigned kEntries = 8;  // of the submission ring: the one request, armed again now and then
 constexpr std::uint16_t kGroup = 0;
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 // One wait: an interface that goes away completes a single request, which a wait for several does not see.
 constexpr std::int64_t kLongestWait_ns = 20'000'000;
-
-std::int64_t NowNs() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * kSecond_ns + now.tv_nsec;
-}
 
 void* Map(int fd, std::size_t bytes, off_t offset) {
   const int flags = MAP_POPULATE | (fd < 0 ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED);
@@ -156,7 +150,7 @@ int UringReceiver::Wait(int wanted, int limit, std::int64_t deadline_ns) noexcep
 }
 
 int UringReceiver::Enter(unsigned min_complete, std::int64_t left_ns) noexcept {
-  __kernel_timespec timeout{left_ns / kSecond_ns, left_ns % kSecond_ns};
+  __kernel_timespec timeout{left_ns / kNsPerSecond, left_ns % kNsPerSecond};
   io_uring_getevents_arg argument{};
   argument.ts = min_complete > 0 ? reinterpret_cast<std::uintptr_t>(&timeout) : 0;
   const long done = syscall(__NR_io_uring_enter, ring_fd_, to_submit_, min_complete,
