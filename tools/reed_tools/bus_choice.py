@@ -6,7 +6,7 @@ import os
 import socket
 import subprocess
 import tempfile
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from reed_tools.errors import UsageError
@@ -51,6 +51,18 @@ def udp(wanted: str) -> str:
                          "PORT is 1 to 65535") from None
     require_multicast_route()
     return f"udp:{group}:{port}"
+
+
+def free_udp(stack: ExitStack, ports: range) -> str | None:
+    """A software bus that no other run on this machine uses, held until the stack closes; None: all are in use."""
+    for port in ports:
+        bus = f"udp:{DEFAULT_GROUP}:{port}"
+        try:
+            stack.enter_context(held(bus))
+            return bus
+        except UsageError:
+            continue
+    return None
 
 
 def kernel_has_can() -> bool:

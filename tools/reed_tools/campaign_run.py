@@ -14,7 +14,7 @@ from reed_tools.campaign_record import Record
 from reed_tools.errors import ReedError, UsageError
 from reed_tools.paths import program
 
-FIRST_PORT, PORTS = 45100, 800
+PORTS = range(45100, 45900)
 START_S = 60.0      # from the first SYNC to an active arm, at most
 STOPPED, REFUSED = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 POLL_S = 0.2
@@ -27,15 +27,9 @@ def build_id() -> str:
 
 
 def free_bus(stack) -> str:
-    """A software bus that no other run on this machine uses, held until the stack closes."""
-    for port in range(FIRST_PORT, FIRST_PORT + PORTS):
-        bus = f"udp:{bus_choice.DEFAULT_GROUP}:{port}"
-        try:
-            stack.enter_context(bus_choice.held(bus))
-            return bus
-        except UsageError:
-            continue
-    raise UsageError(f"no free software bus: ports {FIRST_PORT} to {FIRST_PORT + PORTS - 1} are all in use by other runs")
+    if bus := bus_choice.free_udp(stack, PORTS):
+        return bus
+    raise UsageError(f"no free software bus: ports {PORTS[0]} to {PORTS[-1]} are all in use by other runs")
 
 
 def run_draw(campaign: Campaign, index: int, build: str, bus: str) -> Record | None:

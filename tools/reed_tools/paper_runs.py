@@ -15,14 +15,14 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools import bus_choice, hil, scenario, telemetry_log
-from reed_tools.errors import RunError, UsageError
+from reed_tools.errors import RunError
 from reed_tools.paper_experiments import Experiment
 from reed_tools.paths import ROOT, program
 from reed_tools.run_command import STOPPED, last_line, most_cycles, what_failed
 from reed_tools.signals import Signals, join
 
 PROGRAMS = ("reed_firmware", "reed_plant_sim")
-FIRST_PORT, PORTS = 43600, 64
+PORTS = range(43600, 43664)
 POLL_S = 0.05
 
 
@@ -96,14 +96,10 @@ def run_all(experiments: list[Experiment], cache: Path, jobs: int, report) -> li
 
 
 def free_bus(stack: ExitStack) -> str:
-    for port in range(FIRST_PORT, FIRST_PORT + PORTS):
-        bus = bus_choice.udp(f"udp:{bus_choice.DEFAULT_GROUP}:{port}")
-        try:
-            stack.enter_context(bus_choice.held(bus))
-            return bus
-        except UsageError:
-            continue
-    raise RunError(f"all of the ports {FIRST_PORT} to {FIRST_PORT + PORTS - 1} are in use by other runs")
+    bus_choice.require_multicast_route()
+    if bus := bus_choice.free_udp(stack, PORTS):
+        return bus
+    raise RunError(f"all of the ports {PORTS[0]} to {PORTS[-1]} are in use by other runs")
 
 
 def start(experiment: Experiment, folder: Path) -> Job:
