@@ -89,7 +89,9 @@ def ctest(names: list[str], socketcan: bool) -> Stage | None:
 
 def pytest(names: list[str]) -> Stage:
     command = [sys.executable, "-m", "pytest", "tests", f"--junit-xml={BUILD / 'python-tests.xml'}"]
-    if names:
+    if not names:
+        command += ["-n", str(CORES), "--dist", "loadscope"]  # tests/conftest.py says what stays together
+    else:
         command += ["-k", " or ".join(re.sub(r"\W+", "_", text) for text in names)]
     return Stage("Python tests and whole runs", command, PYTEST_CLOSING, nothing_to_do=(PYTEST_NO_TEST,) if names else ())
 

@@ -1,12 +1,11 @@
-// D on random poses: moves the tip along n by one and not at all sideways.
-#include "firmware/control/normal_direction.h"
-
+// D and the force estimate on poses of real arms: D moves the tip along n by one and not at all sideways.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "firmware/control/force_estimate.h"
 #include "firmware/control/force_loop.h"
+#include "firmware/control/normal_direction.h"
 #include "firmware/model/kinematics.h"
 #include "tests/support/arms.h"
 
@@ -43,11 +42,11 @@ void ExpectPureTranslation(const ArmDescription& description, double sideways) {
   }
 }
 
-TEST(NormalDirection, OfSevenJointsIsAPureTranslation) { ExpectPureTranslation<7, 8>(test::ArmA7(), 1e-6); }
+TEST(DirectionsOfArms, OfSevenJointsIsAPureTranslation) { ExpectPureTranslation<7, 8>(test::ArmA7(), 1e-6); }
 
 // Five joints cannot always keep the hand's direction: D then is the least-squares compromise, J_n D = 1
 // still.
-TEST(NormalDirection, OfFiveJointsMovesTheTipByOneAlongTheNormal) {
+TEST(DirectionsOfArms, OfFiveJointsMovesTheTipByOneAlongTheNormal) {
   const model::ArmModel<5, 6> arm(test::ArmA5());
   model::Kinematics<5> kin;
   model::Vec<5> q;
@@ -59,13 +58,6 @@ TEST(NormalDirection, OfFiveJointsMovesTheTipByOneAlongTheNormal) {
   model::Vec6 wanted = model::Vec6::Zero();
   wanted[2] = 1.0;
   EXPECT_LT((twist - wanted).norm(), 1e-6) << "in the plane of the arm a pure translation exists";
-}
-
-TEST(NormalDirection, OfAnArmThatCannotMoveAlongTheNormalIsZero) {
-  control::Mat<6, 2> J = control::Mat<6, 2>::Zero();
-  J(0, 0) = 0.5;
-  J(2, 1) = 0.4;
-  EXPECT_EQ(control::PureNormalTranslation<2>(J, Eigen::Vector3d::UnitY()).D.norm(), 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+"""Several workers may share these tests (`pytest -n`). What flies in wall time stays together on one of them, so that no
+other flight takes its core; what else there is goes file by file, each with a bus of its own."""
+
+FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
+         "timing/test_loop_calls.py", "tools/test_hil.py")
+
+
+def pytest_xdist_make_scheduler(config, log):
+    from xdist.scheduler import LoadScopeScheduling
+
+    class OneWorkerFlies(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            return "flies" if nodeid.startswith(FLIES) else nodeid.split("::")[0]
+
+    return OneWorkerFlies(config, log)

@@ -1,0 +1,1 @@
+// Nothing: what CMake precompiles for the tests belongs to a target, and a target has a source.
