@@ -14,6 +14,8 @@
 namespace reed::plant {
 namespace {
 
+constexpr std::int64_t kStopCheck_ns = 60'000'000;  // as plant_sim/main.cc
+
 class StillBody final : public ArmBody {
  public:
   void Reset(const Eigen::VectorXd& motor_angle_rad) override {
@@ -41,7 +43,7 @@ int Run(const std::string& bus, int core) {
   std::printf("waiting for SYNC\n");
   std::fflush(stdout);
   const auto now_ns = WallClock::System().monotonic_ns;
-  while (!StopRequested()) endpoint.Poll(now_ns() + 50'000'000);
+  while (!StopRequested()) endpoint.Poll(now_ns() + kStopCheck_ns);
   return 0;
 }
 

@@ -1,5 +1,6 @@
 #include "bus/datagram_batch.h"
 
+#include <netinet/udp.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -56,19 +57,54 @@ void ReceiveBatch::ReadOverflow(msghdr& header) noexcept {
 }
 
 SendBatch::SendBatch() {
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    vectors_[i] = {slots_[i].data(), 0};
-    headers_[i].msg_hdr.msg_iov = &vectors_[i];
-    headers_[i].msg_hdr.msg_iovlen = 1;
-  }
+  for (std::size_t i = 0; i < slots_.size(); ++i) vectors_[i] = {slots_[i].data(), 0};
+}
+
+bool SendBatch::PassEqualSizesTogether(int udp_socket) noexcept {
+  constexpr int kNotByDefault = 0;  // each message says its own
+  together_ = setsockopt(udp_socket, IPPROTO_UDP, UDP_SEGMENT, &kNotByDefault, sizeof kNotByDefault) == 0;
+  return together_;
 }
 
 int SendBatch::Send(int fd, int count) noexcept {
+  const int messages = Arrange(count);
   int sent = 0;
   do {
-    sent = sendmmsg(fd, headers_.data(), static_cast<unsigned>(count), MSG_DONTWAIT | MSG_NOSIGNAL);
+    sent = sendmmsg(fd, headers_.data(), static_cast<unsigned>(messages), MSG_DONTWAIT | MSG_NOSIGNAL);
   } while (sent < 0 && errno == EINTR);
-  return sent < 0 ? -errno : sent;
+  if (sent < 0) return -errno;
+  std::size_t slots = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sent); ++i) slots += headers_[i].msg_hdr.msg_iovlen;
+  return static_cast<int>(slots);
+}
+
+/// Slots 0 .. count-1 as messages: one each, or one for neighbours of equal size. Returns their number.
+int SendBatch::Arrange(int count) noexcept {
+  std::size_t messages = 0;
+  const auto end = static_cast<std::size_t>(count);
+  for (std::size_t first = 0, next = 0; first < end; first = next) {
+    next = first + 1;
+    while (together_ && next < end && vectors_[next].iov_len == vectors_[first].iov_len) ++next;
+    msghdr& header = headers_[messages].msg_hdr;
+    header.msg_iov = &vectors_[first];
+    header.msg_iovlen = next - first;
+    SetSegmentSize(messages++, next - first > 1 ? vectors_[first].iov_len : 0);
+  }
+  return static_cast<int>(messages);
+}
+
+/// 0: the message is one datagram.
+void SendBatch::SetSegmentSize(std::size_t message, std::size_t bytes) noexcept {
+  msghdr& header = headers_[message].msg_hdr;
+  header.msg_control = bytes > 0 ? segment_sizes_[message].bytes.data() : nullptr;
+  header.msg_controllen = bytes > 0 ? sizeof(SegmentSize::bytes) : 0;
+  if (bytes == 0) return;
+  const auto size = static_cast<std::uint16_t>(bytes);
+  cmsghdr* control = CMSG_FIRSTHDR(&header);
+  control->cmsg_level = IPPROTO_UDP;
+  control->cmsg_type = UDP_SEGMENT;
+  control->cmsg_len = CMSG_LEN(sizeof size);
+  std::memcpy(CMSG_DATA(control), &size, sizeof size);
 }
 
 bool WaitReadable(int fd, std::int64_t deadline_ns) noexcept {

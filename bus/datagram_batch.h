@@ -76,6 +76,11 @@ class SendBatch {
   SendBatch(const SendBatch&) = delete;
   SendBatch& operator=(const SendBatch&) = delete;
 
+  /// Neighbours of equal size pass the kernel's network stack as one from here on and become datagrams again
+  /// in the queues of their receivers (UDP_SEGMENT): the answer of five joints costs half as much and wakes
+  /// who waits for it once. False: the kernel cannot. Set-up only.
+  bool PassEqualSizesTogether(int udp_socket) noexcept;
+
   std::span<std::uint8_t, kSlotBytes> slot(int i) noexcept { return slots_[static_cast<std::size_t>(i)]; }
   void set_size(int i, std::size_t bytes) noexcept { vectors_[static_cast<std::size_t>(i)].iov_len = bytes; }
 
@@ -84,9 +89,17 @@ class SendBatch {
   int Send(int fd, int count) noexcept;
 
  private:
+  struct alignas(cmsghdr) SegmentSize {
+    std::array<std::uint8_t, CMSG_SPACE(sizeof(std::uint16_t))> bytes;
+  };
+  int Arrange(int count) noexcept;
+  void SetSegmentSize(std::size_t message, std::size_t bytes) noexcept;
+
+  bool together_ = false;
   std::array<std::array<std::uint8_t, kSlotBytes>, kMaxBatch> slots_{};
   std::array<iovec, kMaxBatch> vectors_{};
   std::array<mmsghdr, kMaxBatch> headers_{};
+  std::array<SegmentSize, kMaxBatch> segment_sizes_{};
 };
 
 /// Waits until `fd` is readable (or has an error to report); false if CLOCK_MONOTONIC passed `deadline_ns`

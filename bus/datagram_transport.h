@@ -28,6 +28,8 @@ class DatagramTransport : public Transport {
   void Use(int receive_fd, int send_fd) noexcept;
   /// The receive socket drops what is sent here, and counts it among what it lost.
   void DropsOwn() noexcept { drops_own_ = true; }
+  /// The send socket is one of UDP.
+  void SendsUdp() noexcept { sending_.PassEqualSizesTogether(send_fd_); }
 
  private:
   virtual Incoming Read(const Datagram& datagram, Frame& out) noexcept = 0;

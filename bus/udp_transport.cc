@@ -109,6 +109,7 @@ UdpTransport::UdpTransport(const UdpAddress& address)
     freeifaddrs(list);
   }
   Use(in, out);
+  SendsUdp();
 }
 
 bool UdpTransport::IsFromThisMachine(const sockaddr_in& source) const noexcept {

@@ -101,6 +101,22 @@ TEST_F(UdpBus, FramesOfACycleArriveInOrderWithEveryByte) {
   EXPECT_EQ(b_.counters().frames_rx, 11U);
 }
 
+TEST_F(UdpBus, NeighboursOfEqualSizeStayDatagramsOfTheirOwnInOrder) {  // UDP_SEGMENT, across two batches
+  std::vector<Frame> sent(2 * kMaxBatch - 1);
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    sent[i] = NumberedFrame(static_cast<int>(i));
+    sent[i].size = i % 11 < 7 ? 16 : i % 3 == 0 ? 64 : 8;
+  }
+  ASSERT_EQ(a_.Send(sent), static_cast<int>(sent.size()));
+  const std::vector<Frame> got = Take(b_, static_cast<int>(sent.size()));
+  ASSERT_EQ(got.size(), sent.size());
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(NumberOf(got[i]), static_cast<int>(i));
+    EXPECT_EQ(got[i].size, sent[i].size);
+  }
+  EXPECT_EQ(a_.counters().frames_tx, sent.size());
+}
+
 TEST_F(UdpBus, OwnFramesAreNotReceived) {
   const std::array one{NumberedFrame(1)}, two{NumberedFrame(2)};
   ASSERT_EQ(a_.Send(one), 1);
