@@ -42,8 +42,6 @@ struct Member {
 
 template <int N, int P>
 struct ArmModel {
-  static constexpr int kJoints = N;
-  static constexpr int kParameters = P;
   static constexpr int kMaxMembers = 2 * N;
 
   // Craig DH (1): T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta) Tz(d).

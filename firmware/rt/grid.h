@@ -25,7 +25,8 @@ static_assert(NextTick(5000, 1000, 4000).deadline_ns == 6000, "an early wake-up 
 
 /// Period of a rate, to the nearest ns: 3 kHz is 333333 ns, and the grid drifts by 1 ppm instead of jumping.
 constexpr std::int64_t PeriodNs(double rate_hz) noexcept {
-  return static_cast<std::int64_t>(1e9 / rate_hz + 0.5);
+  // Of a positive number; std::llround is no constant expression.
+  return static_cast<std::int64_t>(1e9 / rate_hz + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 static_assert(PeriodNs(1000.0) == 1'000'000 && PeriodNs(3000.0) == 333'333);
 

@@ -64,7 +64,6 @@ class EquationsOfMotion {
   double KineticEnergy() const;  // (17) and 1/2 J_m θ'²
   double GravityEnergy() const;  // E_p1, zero with every mass at the base origin
   double ElasticEnergy() const;  // E_p2 + E_p3
-  double ContactEnergy() const { return wall_.Energy(tool_position_); }
 
   /// Dense M(x) and ∂(tool point)/∂x, for modes and checks. Set-up only.
   Eigen::MatrixXd MassMatrix() const;

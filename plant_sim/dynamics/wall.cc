@@ -38,10 +38,4 @@ Wall::Contact Wall::Touch(const Vector3d& point, const Vector3d& velocity) const
   return contact;
 }
 
-double Wall::Energy(const Vector3d& point) const {
-  if (!present_) return 0.0;
-  const double depth = std::max(0.0, -normal_.dot(point - surface_));
-  return 0.5 * stiffness_ * depth * depth;
-}
-
 }  // namespace reed::plant

@@ -25,7 +25,6 @@ class Wall {
   explicit Wall(const WallConfig& config);
 
   Contact Touch(const Eigen::Vector3d& point, const Eigen::Vector3d& velocity) const;
-  double Energy(const Eigen::Vector3d& point) const;
 
  private:
   bool present_;

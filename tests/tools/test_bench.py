@@ -2,11 +2,13 @@
 
 import json
 import math
+import time
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from reed_tools import bench_command, bench_plot, bench_programs, bench_steps, bench_wake
+from reed_tools import bench_command, bench_plot, bench_programs, bench_rate, bench_steps, bench_wake
 from reed_tools.bench_rows import Found, Row
 
 QUICK = SimpleNamespace(quick=True, processes=1, slice=1, slices=1)
@@ -59,6 +61,21 @@ def test_without_cyclictest_the_loops_own_latency_is_measured_and_the_fix_is_tol
     found = bench_wake.wake(QUICK, None)
     assert [row.ours for row in found.rows] == [5.0, 9.0] and all(row.ratio is None for row in found.rows)
     assert any("sudo apt install rt-tests" in note for note in found.notes)
+
+
+def test_cyclictests_grid_goes_on_at_the_first_point_that_is_not_past():
+    due = 1e6 + bench_rate.LOOK_US
+    assert bench_rate.stalls_of([5, 250, 5, 70], 1e6) == [(due + 100, due + 350), (due + 500, due + 570)]
+
+
+def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_alone():
+    now_us, shift = 1e6 * time.time(), 1e6 * (time.monotonic() - time.time())
+    table = {"utime": now_us + np.array([0.0, 1000.0, 5000.0, 9000.0]), "missed": np.array([0, 2, 3, 3]),
+             "wake_ns": np.full(4, 300e3), "cycle_ns": np.full(4, 400e3)}
+    far, near = [1e9, 1e9 + 70.0], [now_us + shift + 1200.0, now_us + shift + 1500.0]
+    assert bench_rate.away(table, np.array([far])) == 3
+    assert bench_rate.away(table, np.array([near, far])) == 1
+    assert bench_rate.away(table, np.empty((0, 2))) == 3
 
 
 def test_without_pinocchio_and_valgrind_the_steps_are_measured_and_the_fixes_are_told(monkeypatch):

@@ -4,7 +4,7 @@ import json
 import time
 from pathlib import Path
 
-from reed_tools import bench_embedded, bench_loop, bench_machine, bench_plant, bench_plot, bench_rows, bench_steps, bench_wake
+from reed_tools import bench_embedded, bench_loop, bench_machine, bench_plant, bench_plot, bench_rate, bench_rows, bench_steps, bench_wake
 from reed_tools.bench_rows import Found, Row
 from reed_tools.errors import ReedError, UsageError
 from reed_tools.paths import ROOT
@@ -14,7 +14,7 @@ def embedded(_arguments, folder) -> Found:
     if missing := bench_embedded.missing():
         return Found(notes=[f"the embedded core is not measured, missing: {'; '.join(missing)}"])
     proof = bench_embedded.prove(folder)
-    return Found([Row("Cortex-M7 step", proof.instructions, None, "instructions"), Row("Cortex-M7 flash", proof.flash_bytes, None, "B"),
+    return Found([Row("Cortex-M7 step, instructions", proof.instructions, None, ""), Row("Cortex-M7 flash", proof.flash_bytes, None, "B"),
                   Row("Cortex-M7 static RAM", proof.ram_bytes, None, "B"), Row("Cortex-M7 stack", proof.stack_bytes, None, "B")])
 
 
@@ -25,7 +25,7 @@ MEASURES = {"steps": (bench_steps.steps, "control step and regressor beside Pino
             "lockstep": (bench_loop.lockstep, "lockstep speed"),
             "telemetry": (bench_loop.telemetry, "telemetry's cost"),
             "calls": (bench_loop.system_calls, "system calls per cycle"),
-            "rate": (bench_loop.highest_rate, "the highest rate"),
+            "rate": (bench_rate.highest_rate, "the highest rate"),
             "embedded": (embedded, "the control core on a Cortex-M7"),
             "plant": (bench_plant.measure, "the plant beside MuJoCo")}
 

@@ -1,8 +1,7 @@
-"""The loop with the plant at the other end: bus cycle, lockstep speed, telemetry, system calls, highest rate."""
+"""The loop with the plant at the other end: bus cycle, lockstep speed, telemetry, system calls."""
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -12,14 +11,13 @@ from statistics import median
 
 import numpy as np
 
-from reed_tools import bench_programs, bench_wake
+from reed_tools import bench_programs
 from reed_tools.bench_rows import Found, Row
 from reed_tools.paths import BUILD, ROOT, program
 from reed_tools.telemetry_log import load
 
 PORT = 46311
 CALLS = {"clock_nanosleep": "230", "sendmmsg": "307", "io_uring_enter": "426", "ppoll": "271", "recvmmsg": "299"}  # x86-64
-FAST_HZ = 4000
 
 
 def cores() -> tuple[int, int]:
@@ -109,24 +107,4 @@ def system_calls(_arguments, folder) -> Found:
         found.rows.append(Row(f"system calls per cycle, {clock}", round(sum(per_cycle.values()), 1), None, "", 4.0))
         found.notes.append(f"system calls per cycle, {clock}: " + ", ".join(f"{name} {count:.2f}" for name, count in per_cycle.items() if count)
                            + f"; budget {budget[f'syscalls_{clock}']}")
-    return found
-
-
-def highest_rate(arguments, folder) -> Found:
-    """60 s at 4 kHz in `wall`. A real wire is too slow for that: it is the compute budget that is tried."""
-    if arguments.quick:
-        return Found(notes=["the highest rate takes two minutes: left out with --quick"])
-    seconds = 60
-    flight = bench_programs.fly(folder, PORT, "wall", f"scenario.duration_s={seconds}", f"timing.rate_hz={FAST_HZ}",
-                                "timing.rx_budget_us=130", "timing.compute_budget_us=60", "timing.tx_budget_us=60",
-                                "timing.max_missed_in_row=200", "scenario.allow_wire_overload=true", *pinned())
-    missed = int(load(flight.log).tables["REED_TIMING"]["missed"][-1])
-    period_us = 1e6 / FAST_HZ
-    found, stalls = Found(), None
-    if shutil.which("cyclictest"):
-        bins = bench_wake.cyclictest(seconds, interval_us=int(period_us))
-        stalls = sum(count * int(us // period_us) for us, count in bins)
-    else:
-        found.notes.append(bench_wake.HOW_TO_GET.format("the highest rate"))
-    found.rows.append(Row(f"missed cycles in {seconds} s at {FAST_HZ} Hz", missed, stalls, "", 1.0, "cyclictest's missed periods"))
     return found

@@ -47,8 +47,8 @@ def measure(_arguments, folder: Path) -> Found:
     theirs = mujoco_costs(probe("arm"))
     bench_plant_plot.draw(ours, joints, theirs, folder / "plant_speed.png")
     default = next(cost for cost in ours if cost.step_s == DEFAULT_STEP_S)
-    rows = [Row(f"bending plant, {default.coordinates} coordinates", default.times_real_time, cost.times_real_time,
-                "x real time", 1.0, f"MuJoCo {cost.side}, {cost.coordinates}", less_is_better=False)
+    rows = [Row(f"bending plant, {default.coordinates} coordinates, × real time", default.times_real_time, cost.times_real_time,
+                "×", 1.0, f"MuJoCo {cost.side}, {cost.coordinates} coordinates", less_is_better=False)
             for cost in theirs if cost.side in ANCHORS]
     return Found(rows, details={"plant": [asdict(cost) for cost in (*ours, *joints, *theirs)]})
 

@@ -58,16 +58,16 @@ def figure(value: float | None) -> str:
 
 
 def show(rows: list[Row]) -> None:
-    table = grid("side by side", "ratio", "aim", "", "what", "Reed", "other side", "")
-    for column in (3, 6):
-        table.columns[column].justify = "left"
-    for column in (1, 3, 4, 5):
+    table = grid("side by side", "ratio", "aim", "", "what", "Reed", "other side")
+    table.columns[3].justify = "left"
+    for column in (0, 1, 2, 4, 5):
         table.columns[column].no_wrap = True
     for row in rows:
         aim = f"{'≤' if row.less_is_better else '≥'} {row.aim:g}" if row.aim is not None else ""
         if row.aim is not None and not row.other:
             aim += f" {row.unit}"
         verdict = {True: "[green]ok[/]", False: "[bold red]no[/]", None: ""}[row.ok]
-        table.add_row(f"{row.ratio:.2f}" if row.ratio is not None else "–", aim, verdict, row.what, f"{figure(row.ours)} {row.unit}",
-                      f"{figure(row.theirs)} {row.unit}" if row.theirs is not None else "–", row.other)
+        what = f"{row.what}\n[dim]  beside {row.other}[/]" if row.other else row.what
+        table.add_row(f"{row.ratio:.2f}" if row.ratio is not None else "–", aim, verdict, what, f"{figure(row.ours)} {row.unit}",
+                      f"{figure(row.theirs)} {row.unit}" if row.theirs is not None else "–")
     console().print(table)
