@@ -60,10 +60,9 @@ SendBatch::SendBatch() {
   for (std::size_t i = 0; i < slots_.size(); ++i) vectors_[i] = {slots_[i].data(), 0};
 }
 
-bool SendBatch::PassEqualSizesTogether(int udp_socket) noexcept {
+void SendBatch::PassEqualSizesTogether(int udp_socket) noexcept {
   constexpr int kNotByDefault = 0;  // each message says its own
   together_ = setsockopt(udp_socket, IPPROTO_UDP, UDP_SEGMENT, &kNotByDefault, sizeof kNotByDefault) == 0;
-  return together_;
 }
 
 int SendBatch::Send(int fd, int count) noexcept {

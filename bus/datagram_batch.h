@@ -78,8 +78,8 @@ class SendBatch {
 
   /// Neighbours of equal size pass the kernel's network stack as one from here on and become datagrams again
   /// in the queues of their receivers (UDP_SEGMENT): the answer of five joints costs half as much and wakes
-  /// who waits for it once. False: the kernel cannot. Set-up only.
-  bool PassEqualSizesTogether(int udp_socket) noexcept;
+  /// who waits for it once. Where the kernel cannot, each goes alone. Set-up only.
+  void PassEqualSizesTogether(int udp_socket) noexcept;
 
   std::span<std::uint8_t, kSlotBytes> slot(int i) noexcept { return slots_[static_cast<std::size_t>(i)]; }
   void set_size(int i, std::size_t bytes) noexcept { vectors_[static_cast<std::size_t>(i)].iov_len = bytes; }

@@ -71,8 +71,9 @@ def bare_cycle(seconds: int) -> float:
     return median(int(line) for line in lines) * 1e-3
 
 
-def lockstep(_arguments, folder) -> Found:
-    flight = bench_programs.fly(folder, PORT, "lockstep")
+def lockstep(arguments, folder) -> Found:
+    flights = [bench_programs.fly(folder, PORT, "lockstep") for _ in range(arguments.slices)]
+    flight = sorted(flights, key=lambda one: one.wall_s)[len(flights) // 2]
     us = 1e6 * flight.wall_s / flight.cycles
     mean = {phase: float(timing(flight)[f"{phase}_ns"].mean()) * 1e-3 for phase in ("rx", "compute", "tx")}
     rest = us - sum(mean.values())

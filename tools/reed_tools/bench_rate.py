@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
 
@@ -41,8 +40,8 @@ def highest_rate(arguments, folder) -> Found:
     alone = away(table, stalls)
     found = Found([Row(f"missed at {RATE_HZ} Hz away from a stall", alone, missed, "cycles", AIM, "all missed cycles")])
     taken = 1e-6 * float((stalls[:, 1] - stalls[:, 0]).sum()) / (SECONDS * len(set(cores())))
-    found.notes.append(f"{SECONDS} s at {RATE_HZ} Hz: {missed} of {SECONDS * RATE_HZ} cycles missed, {missed - alone} of them where cyclictest "
-                       f"stalled too; it saw {len(stalls)} stalls of {STALL_US} µs and more, {100 * taken:.1f} % of the time")
+    found.notes.append(f"{SECONDS} s at {RATE_HZ} Hz: {missed} of {SECONDS * RATE_HZ} cycles missed, {missed - alone} of them where "
+                       f"cyclictest stalled too; it saw {len(stalls)} stalls of {STALL_US} µs and more, {100 * taken:.1f} % of the time")
     found.details = {"highest_rate": {"missed": missed, "away": alone, "stalls": len(stalls), "stalled_share": taken}}
     return found
 
@@ -58,7 +57,8 @@ class Witness:
         self.text = tempfile.TemporaryFile("w+")
         self.process = subprocess.Popen(
             ["cyclictest", "-v", "-m", f"-p{bench_wake.PRIORITY + 1}", f"-t{len(threads)}", f"-a{','.join(map(str, threads))}",
-             f"-i{LOOK_US}", "-d0", "--secaligned", f"-l{(SECONDS + 2) * 1_000_000 // LOOK_US}"], stdout=self.text, stderr=subprocess.DEVNULL)
+             f"-i{LOOK_US}", "-d0", "--secaligned", f"-l{(SECONDS + 2) * 1_000_000 // LOOK_US}"],
+            stdout=self.text, stderr=subprocess.DEVNULL)
         time.sleep(1.0)
 
     def stalls(self) -> np.ndarray:

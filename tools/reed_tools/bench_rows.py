@@ -33,8 +33,8 @@ class Row:
         return figure <= self.aim if self.less_is_better else figure >= self.aim
 
     def as_json(self) -> dict:
-        return {"what": self.what, "ratio": self.ratio if self.ratio != math.inf else None, "aim": self.aim, "ok": self.ok, "reed": self.ours, "other": self.other or None,
-                "other_side": self.theirs, "unit": self.unit}
+        return {"what": self.what, "ratio": self.ratio if self.ratio != math.inf else None, "aim": self.aim, "ok": self.ok,
+                "reed": self.ours, "other": self.other or None, "other_side": self.theirs, "unit": self.unit}
 
 
 @dataclass

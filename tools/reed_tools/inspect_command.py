@@ -42,6 +42,6 @@ def plot(argv: list[str]) -> int:
     try:
         draw(shapes, target)
     except (OSError, ValueError) as error:
-        raise UsageError(f"inspect --plot {target}: {error}") from None
+        raise UsageError(f"inspect --plot {target}: {getattr(error, 'strerror', None) or error}") from None
     print(f"written {target}")
     return 0

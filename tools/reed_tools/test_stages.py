@@ -16,6 +16,7 @@ PYTEST_CLOSING = re.compile(r"^(=+ .*(passed|failed|error|deselected|no tests ra
 GTEST_CLOSING = re.compile(r"^\[  (PASSED|FAILED)  \]|Sanitizer: |runtime error:")
 TIDY_CLOSING = re.compile(r"(error|warning): .*\[[\w.-]+")
 PYTEST_NO_TEST = 5
+MOST_WORKERS = 3  # one of them flies as long as the others together need for the rest
 
 # What the sanitizers can find without the weight of Eigen: bytes from outside (bus), threads (rt, telemetry). Addresses and
 # undefined behaviour in one build, which costs half of two (CMakePresets.json).
@@ -100,7 +101,7 @@ def ctest(names: list[str], socketcan: bool) -> Stage | None:
 def pytest(names: list[str]) -> Stage:
     command = [sys.executable, "-m", "pytest", "tests", f"--junit-xml={BUILD / 'python-tests.xml'}"]
     if not names:
-        command += ["-n", str(CORES), "--dist", "loadscope"]  # tests/conftest.py says what stays together
+        command += ["-n", str(min(CORES, MOST_WORKERS)), "--dist", "loadscope"]  # tests/conftest.py says what stays together
     else:
         command += ["-k", " or ".join(re.sub(r"\W+", "_", text) for text in names)]
     return Stage("Python tests and whole runs", command, PYTEST_CLOSING, nothing_to_do=(PYTEST_NO_TEST,) if names else ())
