@@ -29,19 +29,28 @@ def draw(found: Found, machine: str, target: Path) -> bool:
     return True
 
 
+LEAST = 0.01  # what a ratio of zero is drawn as
+
+
 def ratios(axis, rows) -> None:
-    """Green keeps its aim, red does not; the black mark is the aim."""
-    names = [f"{row.what}\nagainst {row.other}" for row in rows]
-    colours = ["#009E73" if row.ok else "#D55E00" if row.ok is False else "0.6" for row in rows]
-    axis.barh(names, [row.ratio for row in rows], color=colours, height=0.6)
+    """A bar from the aim (black) to the ratio: green keeps it, red does not."""
+    names = [f"{row.what}\nbeside {row.other}" for row in rows]
     for k, row in enumerate(rows):
-        if row.aim is not None:
-            axis.plot([row.aim, row.aim], [k - 0.4, k + 0.4], color="black", linewidth=2)
-        axis.annotate(f" {row.ratio:.2f}", (max(row.ratio, row.aim or 0), k), va="center", fontsize=8)
+        ratio, aim = max(row.ratio, LEAST), row.aim or 1.0
+        colour = "#009E73" if row.ok else "#D55E00" if row.ok is False else "0.6"
+        axis.barh(k, ratio - aim, left=aim, color=colour, height=0.5)
+        axis.plot([aim, aim], [k - 0.35, k + 0.35], color="black", linewidth=2)
+        towards_right = ratio > aim
+        axis.annotate(f"{row.ratio:.2f}", (ratio, k), xytext=(4 if towards_right else -4, 0), textcoords="offset points",
+                      ha="left" if towards_right else "right", va="center", fontsize=8)
+    axis.set_yticks(range(len(rows)), names)
     axis.invert_yaxis()
     axis.tick_params(axis="y", labelsize=7)
-    axis.set_xlim(0, 1.12 * max(max(row.ratio, row.aim or 0) for row in rows))
-    axis.set_xlabel("Reed / other side; black: aim")
+    axis.set_xscale("log")
+    axis.set_xlim(0.4 * min(max(min(row.ratio, row.aim or 1.0), LEAST) for row in rows),
+                  2.5 * max(max(row.ratio, row.aim or 1.0) for row in rows))
+    axis.xaxis.set_major_formatter("{x:g}")
+    axis.set_xlabel("Reed / other side; black: aim; costs are to be left of it, speeds right")
 
 
 def grown(axis, growth) -> None:
