@@ -23,9 +23,9 @@ struct OverrunDecision {
   int missed_in_row;  // to be handed back at the next call
 };
 
-/// @param missed_in_row      what the last decision returned, 0 at the start
-/// @param max_missed_in_row  more points missed without one punctual cycle between them: stop, whatever the
-/// policy
+/// @param missed_in_row      what the last decision returned; 0 at the start and after a cycle that took its
+/// period or less
+/// @param max_missed_in_row  more points missed in a row: stop, whatever the policy
 constexpr OverrunDecision AfterCycle(OverrunPolicy policy, std::int64_t previous_ns, std::int64_t period_ns,
                                      std::int64_t now_ns, int missed_in_row, int max_missed_in_row) noexcept {
   Tick next = NextTick(previous_ns, period_ns, now_ns);

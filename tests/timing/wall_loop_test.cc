@@ -91,7 +91,7 @@ TEST(WallLoop, NineteenMissedCyclesAreStillSurvived) {
   EXPECT_EQ(rig.cycle.stopped_at, -1);
 }
 
-TEST(WallLoop, MissesAddUpWhileNoCycleIsPunctual) {
+TEST(WallLoop, MissesAddUpWhileEachCycleTakesLongerThanItsPeriod) {
   Rig rig(40);
   rig.cycle.cost = [](std::uint32_t k) {
     test::CycleCost cost;
@@ -102,6 +102,17 @@ TEST(WallLoop, MissesAddUpWhileNoCycleIsPunctual) {
   EXPECT_EQ(rig.cycle.stopped_at, 15) << "ten such cycles are twenty misses";
   EXPECT_EQ(rig.cycle.seen[10].missed_in_row, 10);
   EXPECT_GE(result.missed, 20);
+}
+
+TEST(WallLoop, LateCyclesThatThenTakeTheirTimeDoNotAddUp) {
+  Rig rig(40);
+  rig.clock.set_wake_delay_ns(8 * kMs);
+  EXPECT_GE(rig.Run().missed, 300);
+  EXPECT_EQ(rig.cycle.stopped_at, -1);
+  Rig longer(40);
+  longer.clock.set_wake_delay_ns(20 * kMs);
+  longer.Run();
+  EXPECT_EQ(longer.cycle.stopped_at, 1) << "one stall of twenty periods is too long whoever served before";
 }
 
 TEST(WallLoop, SkipLeavesOneMorePointFree) {

@@ -76,6 +76,8 @@ def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_a
     assert bench_rate.away(table, np.array([far])) == 3
     assert bench_rate.away(table, np.array([near, far])) == 1
     assert bench_rate.away(table, np.empty((0, 2))) == 3
+    assert bench_rate.by_chance(table, np.array([far])) == 0.0
+    assert bench_rate.by_chance(table, np.array([[now_us + shift + 8800.0, now_us + shift + 8900.0]])) == 1.0
 
 
 def test_without_pinocchio_and_valgrind_the_steps_are_measured_and_the_fixes_are_told(monkeypatch):

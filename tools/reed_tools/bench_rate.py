@@ -41,7 +41,8 @@ def highest_rate(arguments, folder) -> Found:
     found = Found([Row(f"missed at {RATE_HZ} Hz away from a stall", alone, missed, "cycles", AIM, "all missed cycles")])
     taken = 1e-6 * float((stalls[:, 1] - stalls[:, 0]).sum()) / (SECONDS * len(set(cores())))
     found.notes.append(f"{SECONDS} s at {RATE_HZ} Hz: {missed} of {SECONDS * RATE_HZ} cycles missed, {missed - alone} of them where "
-                       f"cyclictest stalled too; it saw {len(stalls)} stalls of {STALL_US} µs and more, {100 * taken:.1f} % of the time")
+                       f"cyclictest stalled too; it saw {len(stalls)} stalls of {STALL_US} µs and more, {100 * taken:.1f} % of the time; "
+                       f"of the punctual cycles {100 * by_chance(table, stalls):.1f} % met one")
     found.details = {"highest_rate": {"missed": missed, "away": alone, "stalls": len(stalls), "stalled_share": taken}}
     return found
 
@@ -84,11 +85,21 @@ def stalls_of(latencies_us: list[int], start_us: float) -> list[tuple[float, flo
 
 
 def away(table: dict[str, np.ndarray], stalls: np.ndarray) -> int:
-    """Missed cycles whose cause no stall can be: from when the late cycle was due to its end, no core was away."""
+    """Missed cycles whose cause no stall can be."""
     steps = np.diff(table["missed"])
     late = np.nonzero(steps)[0] + 1
+    return int(steps[late - 1][~stalled(table, late, stalls)].sum())
+
+
+def by_chance(table: dict[str, np.ndarray], stalls: np.ndarray) -> float:
+    """Share of the punctual cycles that a stall met too: what the witness would excuse whatever the cause."""
+    punctual = np.nonzero(np.diff(table["missed"]) == 0)[0] + 1
+    return float(stalled(table, punctual[::20], stalls).mean())
+
+
+def stalled(table: dict[str, np.ndarray], cycles: np.ndarray, stalls: np.ndarray) -> np.ndarray:
+    """Whether a core was away between a cycle's due time and its end."""
     to_monotonic_us = 1e6 * (time.monotonic() - time.time())
-    began = table["utime"][late] + to_monotonic_us
-    due, ended = began - table["wake_ns"][late] * 1e-3 - EDGE_US, began + table["cycle_ns"][late] * 1e-3 + EDGE_US
-    excused = [bool(((stalls[:, 0] <= end) & (stalls[:, 1] >= begin)).any()) for begin, end in zip(due, ended)]
-    return int(steps[late - 1][~np.array(excused, dtype=bool)].sum())
+    began = table["utime"][cycles] + to_monotonic_us
+    due, ended = began - table["wake_ns"][cycles] * 1e-3 - EDGE_US, began + table["cycle_ns"][cycles] * 1e-3 + EDGE_US
+    return np.array([((stalls[:, 0] <= end) & (stalls[:, 1] >= begin)).any() for begin, end in zip(due, ended)], dtype=bool)
