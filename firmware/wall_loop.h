@@ -57,16 +57,14 @@ class WallLoop {
   }
 
   std::int64_t NextDeadline(std::int64_t deadline_ns, std::int64_t start_ns, std::int64_t end_ns) noexcept {
-    const rt::OverrunDecision next = rt::AfterCycle(options_.overrun, deadline_ns, period_ns_, end_ns,
-                                                    state_.missed_in_row, options_.max_missed_in_row);
+    const rt::OverrunDecision next = rt::AfterCycle(options_.overrun, deadline_ns, period_ns_, start_ns,
+                                                    end_ns, state_.missed_in_row, options_.max_missed_in_row);
     result_.missed += next.next.missed;
     if (next.next.missed > 0) {
       ++result_.overruns;
       stepper_.NoteTime(protect::Reason::kStall, static_cast<double>(next.next.missed), phases_.history());
     }
-    // A cycle that began late but took no longer than a period has served the arm: it ends the row. So the
-    // stalls of a machine, 5 to 8 ms each, do not add up to a stop, one of twenty periods and a slow loop do.
-    state_.missed_in_row = end_ns - start_ns <= period_ns_ ? 0 : next.missed_in_row;
+    state_.missed_in_row = next.missed_in_row;
     state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop;
     state_.hold = state_.hold || next.action == rt::CycleAction::kHold;
     return next.next.deadline_ns;

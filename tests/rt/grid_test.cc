@@ -43,8 +43,9 @@ Ran RunLoop(OverrunPolicy policy, const std::vector<std::int64_t>& work_ns, std:
   int in_row = 0;
   Ran ran;
   for (const std::int64_t work : work_ns) {
+    const std::int64_t start = clock.NowNs();
     clock.Advance(work);
-    const OverrunDecision decision = AfterCycle(policy, deadline, kPeriod, clock.NowNs(), in_row, 20);
+    const OverrunDecision decision = AfterCycle(policy, deadline, kPeriod, start, clock.NowNs(), in_row, 20);
     in_row = decision.missed_in_row;
     deadline = decision.next.deadline_ns;
     ran.missed += decision.next.missed;

@@ -113,6 +113,7 @@ TEST(WallLoop, LateCyclesThatThenTakeTheirTimeDoNotAddUp) {
   longer.clock.set_wake_delay_ns(20 * kMs);
   longer.Run();
   EXPECT_EQ(longer.cycle.stopped_at, 1) << "one stall of twenty periods is too long whoever served before";
+  EXPECT_EQ(longer.cycle.seen[1].missed_in_row, 20) << "the figure of the trip";
 }
 
 TEST(WallLoop, SkipLeavesOneMorePointFree) {
