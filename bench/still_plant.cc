@@ -14,8 +14,6 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::int64_t kStopCheck_ns = 60'000'000;  // as plant_sim/main.cc
-
 class StillBody final : public ArmBody {
  public:
   void Reset(const Eigen::VectorXd& motor_angle_rad) override {
@@ -52,5 +50,6 @@ int Run(const std::string& bus, int core) {
 
 int main(int argc, char** argv) {
   if (argc < 4) return 2;
-  return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2], std::atoi(argv[3]));
+  return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2],
+                          static_cast<int>(std::strtol(argv[3], nullptr, 10)));
 }

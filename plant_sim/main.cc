@@ -20,8 +20,6 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::int64_t kStopCheck_ns = 60'000'000;
-
 void Say(const Options& options, const std::string& line) {
   if (options.quiet) return;
   std::printf("%s\n", line.c_str());

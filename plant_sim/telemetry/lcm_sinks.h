@@ -7,8 +7,10 @@
 #include <span>
 #include <string>
 
+// NOLINTBEGIN(bugprone-reserved-identifier): the tags of LCM's own types
 struct _lcm_eventlog_t;
 struct _lcm_t;
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace reed::plant {
 
