@@ -11,6 +11,7 @@ import numpy as np
 from reed_tools import bench_programs, bench_wake
 from reed_tools.bench_loop import PORT, cores, pinned
 from reed_tools.bench_rows import Found, Row
+from reed_tools.errors import RunError
 from reed_tools.telemetry_log import load
 
 RATE_HZ, SECONDS = 4000, 60
@@ -27,17 +28,14 @@ def highest_rate(arguments, folder) -> Found:
     """A real wire is too slow for that: it is the compute budget that is tried."""
     if arguments.quick:
         return Found(notes=["the highest rate takes a minute: left out with --quick"])
-    witness = Witness() if shutil.which("cyclictest") else None
-    flight = bench_programs.fly(folder, PORT, "wall", f"scenario.duration_s={SECONDS}", f"timing.rate_hz={RATE_HZ}",
-                                "timing.rx_budget_us=130", "timing.compute_budget_us=60", "timing.tx_budget_us=60",
-                                "scenario.allow_wire_overload=true", *AGES, *pinned())
-    table = load(flight.log).tables["REED_TIMING"]
-    missed = int(table["missed"][-1])
-    if witness is None:
+    if not shutil.which("cyclictest"):
+        missed = int(flown(folder)["missed"][-1])
         return Found([Row(f"missed cycles in {SECONDS} s at {RATE_HZ} Hz", missed, None, "")],
                      notes=[bench_wake.HOW_TO_GET.format("the highest rate")])
-    stalls = witness.stalls()
-    alone = away(table, stalls)
+    with Witness() as witness:
+        table = flown(folder)
+        stalls = witness.stalls()
+    missed, alone = int(table["missed"][-1]), away(table, stalls)
     found = Found([Row(f"missed at {RATE_HZ} Hz away from a stall", alone, missed, "cycles", AIM, "all missed cycles")])
     taken = 1e-6 * float((stalls[:, 1] - stalls[:, 0]).sum()) / (SECONDS * len(set(cores())))
     found.notes.append(f"{SECONDS} s at {RATE_HZ} Hz: {missed} of {SECONDS * RATE_HZ} cycles missed, {missed - alone} of them where "
@@ -45,6 +43,14 @@ def highest_rate(arguments, folder) -> Found:
                        f"of the punctual cycles {100 * by_chance(table, stalls):.1f} % met one")
     found.details = {"highest_rate": {"missed": missed, "away": alone, "stalls": len(stalls), "stalled_share": taken}}
     return found
+
+
+def flown(folder) -> dict[str, np.ndarray]:
+    """The record of time of one flight at that rate."""
+    flight = bench_programs.fly(folder, PORT, "wall", f"scenario.duration_s={SECONDS}", f"timing.rate_hz={RATE_HZ}",
+                                "timing.rx_budget_us=130", "timing.compute_budget_us=60", "timing.tx_budget_us=60",
+                                "scenario.allow_wire_overload=true", *AGES, *pinned())
+    return load(flight.log).tables["REED_TIMING"]
 
 
 class Witness:
@@ -62,6 +68,15 @@ class Witness:
             stdout=self.text, stderr=subprocess.DEVNULL)
         time.sleep(1.0)
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """A flight that failed needs no witness any more."""
+        self.process.kill()
+        self.process.wait()
+        self.text.close()
+
     def stalls(self) -> np.ndarray:
         """When a core was away: rows of (due, woken), µs of CLOCK_MONOTONIC. Waits for cyclictest's end."""
         self.process.wait()
@@ -69,6 +84,8 @@ class Witness:
         late: dict[str, list[int]] = {}
         for thread, latency_us in SAMPLE.findall(self.text.read()):
             late.setdefault(thread, []).append(int(latency_us))
+        if not late:
+            raise RunError("cyclictest printed nothing; it needs the right to SCHED_FIFO")
         found = [stall for latencies in late.values() for stall in stalls_of(latencies, self.start_us)]
         return np.array(sorted(found)).reshape(-1, 2)
 
