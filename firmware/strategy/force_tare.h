@@ -10,9 +10,6 @@ class ForceTare {
   /// Averages at most this many readings; then the zero stays.
   static constexpr int kReadings = 64;
 
-  /// Forgets the readings; the old zero holds until the first new one.
-  void Restart() noexcept { count_ = 0; }
-
   void Take(const Eigen::Vector3d& force) noexcept {
     if (count_ >= kReadings) return;
     ++count_;

@@ -2,7 +2,7 @@
 // jump where one takes over from the other. RT: safe.
 //
 //   sensor    f = nᵀ(F − zero); the zero is the mean of 64 readings at rest, retaken when frames return to an
-//             arm that touches nothing
+//             arm that touches nothing until the sensor is trusted again
 //   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
 //   motion,
 //             slowly while the wall is sought, and stands still in contact without a sensor
@@ -32,10 +32,13 @@ class NormalForce {
   }
   bool settled() const noexcept { return zero_.complete(); }
 
-  /// The frames are back and the arm is free: a new zero.
-  void Retare(const Eigen::Vector3d& force, int fresh_in_row) noexcept {
-    if (fresh_in_row == 1) zero_.Restart();
-    zero_.Take(force);
+  /// The frames are back: a new zero from the first of them, once all that the source waits for have come and
+  /// the arm was free throughout. The wait behind the last reading is longer than the rise of a contact: an
+  /// arm that met the wall meanwhile keeps its old zero, else it would take the wall's force for none.
+  void Retare(const Eigen::Vector3d& force, int fresh_in_row, bool free) noexcept {
+    if (fresh_in_row == 1) returned_ = {};
+    if (free) returned_.Take(force);
+    if (free && returned_.complete() && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
   }
 
   /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N.
@@ -63,7 +66,7 @@ class NormalForce {
   static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
   Eigen::Vector3d normal_;
   double tare_share_, seek_share_, forget_;
-  ForceTare zero_;
+  ForceTare zero_, returned_;
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;
 };

@@ -137,8 +137,8 @@ class Separated {
 
   ForceSource Source(const Measurement<N>& measured, double t_s, bool learn) noexcept {
     const ForceSource source = source_.Step(measured.wrench_age, learn && force_.Wanted(t_s));
-    if (source_.returning() && measured.wrench_age == 0 && !force_.in_contact())
-      normal_force_.Retare(measured.force, source_.fresh_in_row());
+    if (source_.returning() && measured.wrench_age == 0)
+      normal_force_.Retare(measured.force, source_.fresh_in_row(), !force_.in_contact());
     return source;
   }
 

@@ -68,8 +68,21 @@ TEST(NormalForce, AConstantAndASaturatedReadingAreReadings) {
 TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
   NormalForce force(kUp, kT);
   for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
-  for (int k = 1; k <= SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k);
+  for (int k = 1; k < SourceSelector::kReturnCycles; ++k) {
+    EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12);
+    force.Retare(5.0 * kUp, k, true);
+  }
   EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 0.0, 1e-12);
+}
+
+TEST(NormalForce, KeepsItsZeroWhenTheArmMeetsTheWallWhileFramesReturn) {
+  for (const int contact_at : {2, 40, 70, 99}) {
+    NormalForce force(kUp, kT);
+    for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
+    for (int k = 1; k < SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k, k < contact_at);
+    EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12)
+        << contact_at;
+  }
 }
 
 TEST(NormalForce, TheObserversTareFollowsTheFreeArmButNotTheRiseOfAContact) {

@@ -105,6 +105,24 @@ TEST(Separation, AFrameThatIsMissingNowAndThenIsNoLoss) {
   }
 }
 
+TEST(Separation, FramesThatReturnWhileTheArmMeetsTheWallDoNotMakeItsForceTheSensorsZero) {
+  SilRig free(Press());
+  ASSERT_TRUE(free.RunActive(0.1));
+  while (free.truth().normal_force == 0.0 && free.mode() == Mode::kActive) free.Run();
+  const double contact_s = free.snapshot().control.t_s;
+  for (const double before_s : {0.004, 0.03, 0.05, 0.07}) {
+    SilRig rig(Press());
+    ASSERT_TRUE(rig.RunActive(contact_s - before_s));
+    const std::uint32_t from = rig.cycle_number();
+    rig.on_the_way = [from](std::uint32_t cycle, bus::Frame& frame) {
+      return !IsWrench(frame) || cycle >= from + 4;
+    };
+    ASSERT_TRUE(rig.RunActive(contact_s + 1.0));
+    EXPECT_EQ(Source(rig), kKnown);
+    EXPECT_NEAR(rig.snapshot().control.f, rig.truth().normal_force, 0.2) << before_s;
+  }
+}
+
 TEST(Separation, ASaturatedReadingIsNoLoss) {
   Scenario scenario = Press();
   scenario.sensors.force_range_N = 6.0;
