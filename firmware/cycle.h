@@ -111,6 +111,7 @@ class Cycle final : public CycleBase {
     seen.all_fresh = all_answered && measured.OldestAge() == 0;
     seen.drives_ready = measured.AllDrives(bus::DriveState::kReady);
     seen.drives_enabled = measured.AllDrives(bus::DriveState::kEnabled);
+    seen.drives_braked = measured.AnyDrive(bus::DriveState::kBraked);
     seen.settled = strategy_.settled() || measured.wrench_age == Measurement<N>::kNever;
     seen.stop = loop.stop_wanted || (active() && time_s() >= duration_s_);
     seen.trip = verdict.trip != protect::Reason::kNone;

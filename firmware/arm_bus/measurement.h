@@ -35,6 +35,11 @@ struct Measurement {
       if (s != state) return false;
     return true;
   }
+  bool AnyDrive(bus::DriveState state) const noexcept {
+    for (const bus::DriveState s : drive)
+      if (s == state) return true;
+    return false;
+  }
 };
 
 }  // namespace reed

@@ -13,12 +13,20 @@ inline constexpr int kNumModes = 4;
 inline constexpr std::array<const char*, kNumModes> kModeNames{"off", "ready", "active", "fault"};
 
 /// kEnable: all joints measured. kStart: the operator's wish, and all drives enabled. kStop: the end of the
-/// run or the operator's wish. kTrip: a limit or a loss. kReset: the operator's, after a fault. kNone:
-/// nothing happened.
-enum class Event : std::uint8_t { kNone = 0, kEnable = 1, kStart = 2, kStop = 3, kTrip = 4, kReset = 5 };
-inline constexpr int kNumEvents = 6;
-inline constexpr std::array<const char*, kNumEvents> kEventNames{"none", "enable", "start",
-                                                                 "stop", "trip",   "reset"};
+/// run or the operator's wish. kTrip: a limit or a loss. kReset: the operator's, after a fault. kBraked: the
+/// drives gave up waiting for commands before any torque flowed. kNone: nothing happened.
+enum class Event : std::uint8_t {
+  kNone = 0,
+  kEnable = 1,
+  kStart = 2,
+  kStop = 3,
+  kTrip = 4,
+  kReset = 5,
+  kBraked = 6
+};
+inline constexpr int kNumEvents = 7;
+inline constexpr std::array<const char*, kNumEvents> kEventNames{"none", "enable", "start", "stop",
+                                                                 "trip", "reset",  "braked"};
 
 struct Transition {
   Mode from;
@@ -30,6 +38,7 @@ inline constexpr std::array kTransitions{
     Transition{Mode::kOff, Event::kEnable, Mode::kReady},
     Transition{Mode::kReady, Event::kStart, Mode::kActive},
     Transition{Mode::kReady, Event::kStop, Mode::kOff},
+    Transition{Mode::kReady, Event::kBraked, Mode::kOff},
     Transition{Mode::kActive, Event::kStop, Mode::kReady},
     Transition{Mode::kFault, Event::kReset, Mode::kOff},
 };

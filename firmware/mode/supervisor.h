@@ -12,6 +12,7 @@ struct Observation {
   bool all_fresh = false;       // every joint answered this cycle
   bool drives_ready = false;    // every drive says ready
   bool drives_enabled = false;  // every drive says enabled
+  bool drives_braked = false;   // any drive says braked: commands had stopped for too long
   bool settled = false;         // force sensor tared
   bool stop = false;            // end of the run, or the operator
   bool trip = false;            // a limit, or a loss
@@ -61,6 +62,10 @@ class Supervisor {
     if (seen.trip) return Event::kTrip;
     if (seen.stop && (mode_ == Mode::kActive || mode_ == Mode::kReady)) return Event::kStop;
     fresh_in_row_ = seen.all_fresh ? fresh_in_row_ + 1 : 0;
+    if (mode_ == Mode::kReady && seen.drives_braked) {  // braked ends by asking for off only
+      fresh_in_row_ = 0;
+      return Event::kBraked;
+    }
     if (mode_ == Mode::kOff && fresh_in_row_ >= kFreshInRow && !seen.stop) return Event::kEnable;
     if (mode_ == Mode::kReady && enabling_ && seen.drives_enabled) return Event::kStart;
     return Event::kNone;

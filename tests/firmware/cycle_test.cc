@@ -119,6 +119,19 @@ TEST(Cycle, WithoutTheWishTheArmIsOnlyWatched) {
   EXPECT_EQ(rig.mode(), Mode::kReady);
 }
 
+TEST(Cycle, DrivesThatBrakedOnTheWayToTheStartAreAskedAnew) {
+  for (const int ready_for : {0, 1, 2}) {
+    SilRig rig(PressKnown());
+    for (int i = 0; i < 1000 && rig.drives().state() != bus::DriveState::kReady; ++i) rig.Run();
+    for (int i = 0; i < ready_for; ++i) rig.Run();
+    rig.commands_lost = true;
+    for (int i = 0; i < 1000 && rig.drives().state() != bus::DriveState::kBraked; ++i) rig.Run();
+    ASSERT_EQ(rig.drives().state(), bus::DriveState::kBraked);
+    rig.commands_lost = false;
+    EXPECT_TRUE(rig.RunActive(0.1)) << ready_for;
+  }
+}
+
 TEST(Cycle, TheOperatorsStopEndsAWatchedRunToo) {
   for (const bool enable : {false, true}) {
     SilRig rig(PressKnown(), enable);

@@ -11,12 +11,12 @@ using bus::DriveRequest;
 
 constexpr Mode kO = Mode::kOff, kR = Mode::kReady, kA = Mode::kActive, kF = Mode::kFault;
 
-// Rows: off, ready, active, fault. Columns: none, enable, start, stop, trip, reset.
+// Rows: off, ready, active, fault. Columns: none, enable, start, stop, trip, reset, braked.
 constexpr Mode kExpected[kNumModes][kNumEvents] = {
-    {kO, kR, kO, kO, kF, kO},
-    {kR, kR, kA, kO, kF, kR},
-    {kA, kA, kA, kR, kF, kA},
-    {kF, kF, kF, kF, kF, kO},
+    {kO, kR, kO, kO, kF, kO, kO},
+    {kR, kR, kA, kO, kF, kR, kO},
+    {kA, kA, kA, kR, kF, kA, kA},
+    {kF, kF, kF, kF, kF, kO, kF},
 };
 
 TEST(ModeTable, EveryPairOfModeAndEventGoesWhereTheIndependentTableSays) {
@@ -52,7 +52,7 @@ class Walk {
     for (int i = 0; i < count; ++i) Cycle();
   }
 
-  Observation seen{true, false, false, true, false, false, false};
+  Observation seen{.all_fresh = true, .settled = true};
   Supervisor supervisor;
 
  private:
@@ -84,7 +84,7 @@ TEST(Supervisor, WithoutTheWishAStreamOfMeasurementsNeverAsksForEnable) {
 
 TEST(Supervisor, DrivesThatEnableThemselvesDoNotMakeTheArmActive) {
   Supervisor supervisor(false);
-  Observation seen{true, false, true, true, false, false, false};
+  const Observation seen{.all_fresh = true, .drives_enabled = true, .settled = true};
   for (int i = 0; i < 1000; ++i) {
     supervisor.Step(seen);
     ASSERT_NE(supervisor.mode(), kA);
@@ -113,6 +113,23 @@ TEST(Supervisor, BrakesStayClosedUntilTheForceSensorIsSettled) {
   walk.seen.settled = true;
   walk.Cycles(2);
   EXPECT_EQ(walk.supervisor.mode(), kA);
+}
+
+TEST(Supervisor, DrivesThatBrakedBeforeTheyWereEnabledAreAskedForOffAndThenAnew) {
+  for (const int cycles_in_ready : {0, 1}) {
+    Walk walk(true);
+    walk.Cycles(Supervisor::kFreshInRow + cycles_in_ready);
+    ASSERT_EQ(walk.supervisor.mode(), kR);
+    walk.seen.drives_braked = true;
+    EXPECT_EQ(walk.Cycle(), Event::kBraked);
+    EXPECT_EQ(walk.supervisor.mode(), kO);
+    EXPECT_EQ(walk.supervisor.Request(), DriveRequest::kOff);
+    walk.seen.drives_braked = false;
+    walk.Cycles(Supervisor::kFreshInRow - 1);
+    EXPECT_EQ(walk.supervisor.Request(), DriveRequest::kOff) << "long enough for the drives to hear it";
+    walk.Cycles(3);
+    EXPECT_EQ(walk.supervisor.mode(), kA) << "the wish was never fulfilled, so it still holds";
+  }
 }
 
 TEST(Supervisor, StopClosesTheBrakesAndTheWishHasToBeSaidAgain) {

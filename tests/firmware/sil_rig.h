@@ -112,9 +112,13 @@ class SilRig {
 
   OnTheWay on_the_way;
   std::optional<bus::Frame> injected;  // reaches the controller in the next cycle
+  bool commands_lost = false;          // on their way to the drives
 
  private:
   void LetPlantWork() {
+    if (commands_lost)
+      std::erase_if(wire_.plant.inbox,
+                    [](const bus::Frame& frame) { return frame.id == bus::layout::kCommand.id; });
     endpoint_.Poll(0);
     std::deque<bus::Frame>& inbox = wire_.controller.inbox;
     if (on_the_way) std::erase_if(inbox, [this](bus::Frame& frame) { return !on_the_way(number_, frame); });
