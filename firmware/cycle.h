@@ -47,6 +47,7 @@ class Cycle final : public CycleBase {
     const std::int64_t sent = clock_.NowNs();
 
     Record(measured, decision, tau, verdict, snapshot);  // record
+    snapshot.timing.clock_stood = measured.clock_stood;
     snapshot.timing.rx_ns = static_cast<std::int32_t>(received - snapshot.time_ns);
     snapshot.timing.compute_ns = static_cast<std::int32_t>(computed - received);
     snapshot.timing.tx_ns = static_cast<std::int32_t>(sent - computed);
@@ -88,7 +89,8 @@ class Cycle final : public CycleBase {
     using protect::Reason;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (!active()) return {};
-    if (loop.missed_in_row_exceeded)
+    // What was missed while the arm's own clock stood still did it no harm. Real drives never say so.
+    if (loop.missed_in_row_exceeded && !measured.clock_stood)
       return {Reason::kMissedCycles, -1, static_cast<double>(loop.missed_in_row), 0};
     if (loop.phase_budget_exceeded)
       return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(loop.broken_in_row), 0};

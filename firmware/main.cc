@@ -11,6 +11,7 @@
 
 #include "bus/open_transport.h"
 #include "bus/wire_time.h"
+#include "config/schema/cores.h"
 #include "firmware/ground.h"
 #include "firmware/loop.h"
 #include "firmware/options.h"
@@ -50,7 +51,8 @@ Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& 
            bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = StopFlag();
   const bool wall = options.clock == ClockKind::kWall;
-  rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0, scenario.timing.cpu, true};
+  rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0,
+                             wall ? LoopCore(scenario.timing) : scenario.timing.cpu, true};
   if (wall && !options.seccomp) bus::ReceiveOnThisThread(transport);  // before memory is locked
   rt::RealtimeScope scope(wanted);
   for (const std::string& line : scope.report().Complaints())

@@ -64,8 +64,9 @@ class WallLoop {
       ++result_.overruns;
       stepper_.NoteTime(protect::Reason::kStall, static_cast<double>(next.next.missed), phases_.history());
     }
-    state_.missed_in_row = next.missed_in_row;
-    state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop;
+    const bool served = stepper_.snapshot().timing.clock_stood;  // nothing was missed by the arm's own clock
+    state_.missed_in_row = served ? 0 : next.missed_in_row;
+    state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop && !served;
     state_.hold = state_.hold || next.action == rt::CycleAction::kHold;
     return next.next.deadline_ns;
   }

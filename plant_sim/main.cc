@@ -14,6 +14,7 @@
 #include "plant_sim/endpoint/wall_endpoint.h"
 #include "plant_sim/options.h"
 #include "plant_sim/process/realtime.h"
+#include "plant_sim/process/stall_watch.h"
 #include "plant_sim/process/stop_signal.h"
 #include "plant_sim/telemetry/publisher.h"
 
@@ -27,11 +28,14 @@ void Say(const Options& options, const std::string& line) {
 }
 
 std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
-                                       bus::Transport& transport, ArmBody& body, Recorder& recorder) {
+                                       bus::Transport& transport, ArmBody& body, Recorder& recorder,
+                                       const StallWatch& watch) {
   if (options.clock == ClockKind::kLockstep) {
     return std::make_unique<LockstepEndpoint>(scenario, transport, body, recorder);
   }
-  return std::make_unique<WallEndpoint>(scenario, transport, body, recorder);
+  WallClock clock = WallClock::System();
+  clock.stood_ns = [&watch] { return watch.stood_ns(); };
+  return std::make_unique<WallEndpoint>(scenario, transport, body, recorder, clock);
 }
 
 /// Until the endpoint ends by itself, its time is over, or a signal asks; then what already lies on the bus
@@ -53,10 +57,15 @@ int Run(const Options& options) {
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   Publisher publisher({options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
-  const std::unique_ptr<Endpoint> endpoint = MakeEndpoint(options, scenario, *transport, body, publisher);
+  StallWatch watch;
+  const std::unique_ptr<Endpoint> endpoint =
+      MakeEndpoint(options, scenario, *transport, body, publisher, watch);
   if (wall) {
     for (const std::string& line : AskForRealtime(scenario.timing)) {
       std::fprintf(stderr, "reed_plant_sim: %s\n", line.c_str());
+    }
+    if (const std::string refused = watch.Start(scenario.timing.priority + 1); !refused.empty()) {
+      std::fprintf(stderr, "reed_plant_sim: %s\n", refused.c_str());
     }
   }
 

@@ -148,8 +148,8 @@ struct TimingConfig {
   enum class PhaseAction { kCount, kHold, kDegrade, kFault } phase_action = PhaseAction::kCount;
   int max_broken_in_row = 20;  // phase_action fault: more cycles in a row with a broken budget
   int priority = 80;           // SCHED_FIFO
-  int cpu = -1;                // core to pin the loop to, -1: none
-  int plant_cpu = -1;
+  int cpu = -1;                // core of the loop, -1: the last one it may use
+  int plant_cpu = -1;          // core of the plant, -1: that of the loop
 };
 
 /// [[checks]] one line of the verdict.

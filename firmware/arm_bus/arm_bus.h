@@ -27,7 +27,7 @@ class ArmBus {
     cycle_ = cycle;
     answered_ = 0;
     wrench_came_ = wrench_heard_ = false;
-    measurement_.foreign_controller = false;
+    measurement_.foreign_controller = measurement_.clock_stood = false;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
     Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), 0, tap);
@@ -100,6 +100,7 @@ class ArmBus {
       return;
     }
     const bus::JointStateMessage& state = decoded.joint_state;
+    measurement_.clock_stood = measurement_.clock_stood || state.clock_stood;
     const int late =
         static_cast<int>((cycle_ - state.cycle_low4) & 0xFu);  // cycles since the SYNC it answers
     if (late == 0) {

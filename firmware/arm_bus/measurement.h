@@ -20,6 +20,7 @@ struct Measurement {
   int wrench_age = kNever;                           // cycles
   bool wrench_saturated = false;
   bool foreign_controller = false;  // somebody else sends SYNC or COMMAND
+  bool clock_stood = false;         // says an answer of this cycle: the simulated arm's clock had stood still
 
   static constexpr int kNever = 1'000'000;  // ages stop here
 

@@ -113,6 +113,7 @@ Bytes Encoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   out.compute_ns = in.compute_ns;
   out.tx_ns = in.tx_ns;
   out.cycle_ns = in.cycle_ns;
+  out.clock_stood = static_cast<std::int8_t>(in.clock_stood);
   out.missed = in.missed;
   out.overruns = in.overruns;
   out.dropped = in.dropped;

@@ -84,6 +84,7 @@ struct Timing {
   std::int64_t rx_over = 0;
   std::int64_t compute_over = 0;
   std::int64_t tx_over = 0;
+  bool clock_stood = false;  // of this cycle
 };
 
 /// lcmtypes/bus_t.lcm, all since start

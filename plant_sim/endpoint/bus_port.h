@@ -29,8 +29,9 @@ class BusPort {
   /// left out and counted.
   std::span<const Incoming> Receive(std::int64_t deadline_ns) noexcept;
 
-  /// One state frame per joint, then the wrench unless it is lost, in one Send.
-  void Answer(std::uint32_t cycle, const Measurement& measurement) noexcept;
+  /// One state frame per joint, then the wrench unless it is lost, in one Send. `clock_stood`: the arm's time
+  /// did not pass since the last answer as the controller's did.
+  void Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept;
 
   bool alive() const noexcept { return transport_.alive(); }
   std::uint64_t rejected() const noexcept { return rejected_; }

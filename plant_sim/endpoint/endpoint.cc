@@ -43,9 +43,12 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
   return true;
 }
 
-void Endpoint::Sample(std::uint32_t cycle) {
-  port_.Answer(cycle, robot_.Measure());
-  journal_.Put(robot_.Snapshot());
+void Endpoint::Sample(std::uint32_t cycle, const Standstill& standstill) {
+  port_.Answer(cycle, robot_.Measure(), standstill.since_answer);
+  PlantRecord truth = robot_.Snapshot();
+  truth.stalls = standstill.stalls;
+  truth.stood_s = standstill.stood_s;
+  journal_.Put(truth);
 }
 
 void Endpoint::CheckHealth() {

@@ -11,6 +11,13 @@
 
 namespace reed::plant {
 
+/// How the machine kept the arm's clock from running.
+struct Standstill {
+  std::int64_t stalls = 0;  // since start, as stood_s
+  double stood_s = 0.0;
+  bool since_answer = false;  // one of them came after the last answer
+};
+
 class Endpoint {
  public:
   /// `transport`, `body` and `recorder` outlive the endpoint.
@@ -34,7 +41,7 @@ class Endpoint {
   /// Common to both clocks: layout check, restart, stamp. False: this SYNC must not be answered.
   bool Accept(const Incoming& sync, std::int64_t utime);
   /// Sensors, answer, telemetry, all of this instant.
-  void Sample(std::uint32_t cycle);
+  void Sample(std::uint32_t cycle, const Standstill& standstill = {});
   /// After every advance: a body that diverged ends the simulation.
   void CheckHealth();
   void CountRefusedCommand() noexcept { ++refused_commands_; }

@@ -26,7 +26,8 @@ void WallEndpoint::Handle(std::span<const Incoming> incoming) {
     return in.kind == Incoming::Kind::kCommand;
   });
   const std::int64_t now_ns = clock_.monotonic_ns();
-  if (syncs() > 0) CatchUp(now_ns, command_waits);
+  const std::int64_t arm_ns = ArmTime(now_ns);
+  if (syncs() > 0) CatchUp(arm_ns, command_waits);
   for (const Incoming& in : incoming) {
     if (outcome() != Outcome::kRunning) return;
     if (in.kind == Incoming::Kind::kSync) {
@@ -40,9 +41,28 @@ void WallEndpoint::Handle(std::span<const Incoming> incoming) {
 void WallEndpoint::OnSync(const Incoming& sync, std::int64_t now_ns) {
   if (sync.new_controller) real_minus_monotonic_us_ = clock_.realtime_us() - now_ns / 1000;
   if (!Accept(sync, real_minus_monotonic_us_ + now_ns / 1000)) return;
-  if (sync.new_controller) integrated_ns_ = clock_.monotonic_ns();
+  if (sync.new_controller) integrated_ns_ = ArmTime(clock_.monotonic_ns());
   cycle_ = sync.sync.cycle;
-  Sample(cycle_);
+  Sample(cycle_, standstill_);
+  standstill_.since_answer = false;
+}
+
+/// Read after `now_ns`: a stall between the two readings then holds the arm back, and never pushes it ahead.
+std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
+  const std::int64_t stood_ns = clock_.stood_ns();
+  const std::int64_t stall_ns = stood_ns - stood_ns_;
+  stood_ns_ = stood_ns;
+  if (stall_ns > 0 && syncs() > 0) {
+    const double stall_s = static_cast<double>(stall_ns) * 1e-9;
+    ++standstill_.stalls;
+    standstill_.stood_s += stall_s;
+    standstill_.since_answer = true;
+    if (stall_ns >= kWorthALine_ns) {
+      journal().Note(PlantEvent::kClockStood, robot().drives().state(), stall_s,
+                     "the machine was away for %.1f ms; the arm's clock stood still", 1e3 * stall_s);
+    }
+  }
+  return now_ns - stood_ns;
 }
 
 /// A command is an answer to a SYNC of the last few periods; an older one is a stray of another controller.

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "config/schema/cores.h"
+
 namespace reed::plant {
 
 std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
@@ -26,14 +28,13 @@ std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
                       std::strerror(errno) + "); fix: run as root, or rtprio " +
                       std::to_string(param.sched_priority) + " in /etc/security/limits.conf");
   }
-  if (timing.plant_cpu >= 0) {
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    CPU_SET(static_cast<std::size_t>(timing.plant_cpu), &cores);
-    if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
-      refused.push_back("core " + std::to_string(timing.plant_cpu) + " not granted (" + std::strerror(errno) +
-                        "); fix: timing.plant_cpu must be a core of this machine");
-    }
+  const int core = PlantCore(timing);
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<std::size_t>(core), &cores);
+  if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
+    refused.push_back("core " + std::to_string(core) + " not granted (" + std::strerror(errno) +
+                      "); fix: timing.plant_cpu must be a core of this machine");
   }
   return refused;
 }

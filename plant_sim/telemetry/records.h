@@ -21,6 +21,8 @@ struct PlantRecord {
   std::array<double, 3> tip{}, tip_velocity{}, contact_force{};
   double normal_force = 0.0, gap = 0.0;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
+  std::int64_t stalls = 0;
+  double stood_s = 0.0;
 };
 
 /// Numbers of event_t.code on REED_PLANT_EVENT. Fixed for ever: logs outlive versions.
@@ -37,6 +39,7 @@ enum class PlantEvent : std::int32_t {
   kTooSlow = 209,   // value: plant time given up, s
   kWrenchLost = 210,
   kWrenchBack = 211,
+  kClockStood = 212,  // value: for how long, s
 };
 
 /// Mirrors lcmtypes/event_t.lcm.

@@ -191,7 +191,7 @@ TEST(Decoder, NanInfinityAndTheFirstFloatBeyondEachBoundAreRefusedForEverySignal
 }
 
 TEST(Decoder, StatesAndRequestsThatDoNotExistAreRefused) {
-  for (unsigned state = 0; state < 16; ++state) {
+  for (unsigned state = 0; state < 8; ++state) {
     Encoder encoder;
     Decoder decoder;
     Frame frame = encoder.JointState(0, {});

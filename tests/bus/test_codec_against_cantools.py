@@ -24,7 +24,8 @@ def messages(rng):
     yield "sync", [cycle, layout], "SYNC", {"cycle": cycle, "layout": layout}
     for joint in range(8):
         state = {"position": uniform(rng, "position"), "velocity": uniform(rng, "velocity"),
-                 "torque": uniform(rng, "torque"), "drive_state": rng.randrange(5), "cycle_low4": rng.randrange(16)}
+                 "torque": uniform(rng, "torque"), "drive_state": rng.randrange(5), "clock_stood": rng.randrange(2),
+                 "cycle_low4": rng.randrange(16)}
         yield "joint", [joint, *state.values()], f"JOINT_STATE_{joint + 1}", state
     axes = {f"{kind}_{axis}": uniform(rng, kind) for kind in ("force", "moment") for axis in "xyz"}
     saturated = rng.randrange(2)
@@ -75,7 +76,7 @@ def test_cpp_reads_what_cantools_writes(codec, database):
     ("COMMAND", {"torque_8": 1e9}, 6),
     ("COMMAND", {"request": 3}, 6),
     ("WRENCH", {"force_z": float("-inf")}, 6),
-    ("JOINT_STATE_4", {"drive_state": 9}, 6),
+    ("JOINT_STATE_4", {"drive_state": 7}, 6),
     ("JOINT_STATE_8", {"position": 32.0001}, 6),
 ])
 def test_cpp_refuses_numbers_that_the_dbc_does_not_allow(codec, database, name, change, reason):

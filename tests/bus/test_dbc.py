@@ -10,7 +10,7 @@ import pytest
 CONTRACT = {"SYNC": (0x080, 8), "WRENCH": (0x140, 32), "COMMAND": (0x200, 48),
             **{f"JOINT_STATE_{i}": (0x100 + i, 16) for i in range(1, 9)}}
 UNITS = {"position": "rad", "velocity": "rad/s", "torque": "Nm", "force": "N", "moment": "Nm"}
-CHOICES = {"drive_state": ["Off", "Ready", "Enabled", "Braked", "Fault"], "request": ["Off", "Ready", "Enable"]}
+CHOICES = {"drive_state": ["Off", "Ready", "Enabled", "Braked", "Fault"], "clock_stood": ["No", "Yes"], "request": ["Off", "Ready", "Enable"]}
 
 
 def generate(dbc, out):

@@ -28,6 +28,8 @@ PlantRecord NumberedRecord(int k) {
   record.tip = {0.1, 0.2, 0.3};
   record.gap = 1e9;
   record.potential_J = 7.0;
+  record.stalls = 3 * k;
+  record.stood_s = 0.25;
   return record;
 }
 
@@ -123,6 +125,8 @@ TEST_F(PublisherLog, HoldsEveryRecordInOrderWithItsNumbersWhenTheProducerWaits) 
     EXPECT_EQ(m.tip[2], 0.3);
     EXPECT_EQ(m.gap, 1e9);
     EXPECT_EQ(m.potential_J, 7.0);
+    EXPECT_EQ(m.stalls, 3 * k);
+    EXPECT_EQ(m.stood_s, 0.25);
     lcm_eventlog_free_event(entry);
   }
   lcm_eventlog_event_t* entry = lcm_eventlog_read_next_event(log);

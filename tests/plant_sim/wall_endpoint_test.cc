@@ -15,7 +15,8 @@ constexpr double kTau_Nm = 4.0;
 class Wall : public ::testing::Test {
  protected:
   Wall() {
-    WallClock clock{[this] { return now_ns_; }, [this] { return 1'700'000'000'000'000 + now_ns_ / 1000; }};
+    WallClock clock{[this] { return now_ns_; }, [this] { return 1'700'000'000'000'000 + now_ns_ / 1000; },
+                    [this] { return stood_ns_; }};
     endpoint_ = std::make_unique<WallEndpoint>(TwoJointScenario(), wire_.plant, body_, recorder_, clock);
   }
   void At(std::int64_t time_ns) {
@@ -38,6 +39,7 @@ class Wall : public ::testing::Test {
 
   static constexpr std::int64_t kStart_ns = 5'000 * kMs;
   std::int64_t now_ns_ = kStart_ns;
+  std::int64_t stood_ns_ = 0;
   test::FakeWire wire_;
   RotorBody body_;
   VectorRecorder recorder_;
@@ -111,6 +113,57 @@ TEST_F(Wall, AStalledMachineWithASilentControllerBrakesAtTheRightInstant) {
   const double tau_Nm = 4.0, t_s = 20e-3;  // torque flowed for 20 ms and no longer
   EXPECT_NEAR(body_.truth().motor_angle_rad[0], 0.25 + 0.5 * tau_Nm / RotorBody::kInertia_kgm2 * t_s * t_s,
               1e-6);
+}
+
+TEST_F(Wall, TheArmsClockStandsStillWhileTheMachineIsAway) {
+  Enable();
+  controller_.Command(1, DriveRequest::kEnable, kTau_Nm);
+  At(2 * kMs);
+  controller_.Take();
+  stood_ns_ = 98 * kMs;
+  controller_.Sync(2);
+  At(101 * kMs);
+  EXPECT_EQ(state(), DriveState::kEnabled) << "of 99 ms the arm has seen one";
+  EXPECT_NEAR(recorder_.Plants().back().t_s, 3e-3, 1e-12);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 1);
+  EXPECT_NEAR(recorder_.Plants().back().stood_s, 98e-3, 1e-12);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kClockStood), 1);
+  for (const bus::JointStateMessage& joint : controller_.Take().joints) EXPECT_TRUE(joint.clock_stood);
+
+  controller_.Sync(3);
+  At(102 * kMs);
+  for (const bus::JointStateMessage& joint : controller_.Take().joints) EXPECT_FALSE(joint.clock_stood);
+  EXPECT_NEAR(endpoint_->robot().time_s(), 4e-3, 1e-12);
+  At(121 * kMs + kMs / 2);
+  EXPECT_EQ(state(), DriveState::kBraked) << "a silent controller still is one";
+}
+
+TEST_F(Wall, ShortStallsAreCountedWithoutALine) {
+  Enable();
+  for (std::uint32_t k = 2; k < 12; ++k) {
+    stood_ns_ += kMs;
+    Cycle(2 * k, DriveRequest::kEnable);
+  }
+  EXPECT_EQ(recorder_.Plants().back().stalls, 10);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kClockStood), 0);
+}
+
+TEST_F(Wall, AStallSeenAfterTheClockWasReadHoldsTheArmAndNeverTurnsItBack) {
+  Enable();
+  stood_ns_ = 30 * kMs;  // the reading of the clock is older than the stall
+  At(2 * kMs);
+  EXPECT_NEAR(endpoint_->robot().time_s(), 1.25e-3, 1e-12);
+  At(32 * kMs);
+  EXPECT_NEAR(endpoint_->robot().time_s(), 2e-3, 1e-12);
+}
+
+TEST_F(Wall, StallsBeforeTheFirstSyncAreNobodysLoss) {
+  stood_ns_ = 500 * kMs;
+  At(600 * kMs);
+  controller_.Sync(0);
+  At(601 * kMs);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 0);
+  for (const bus::JointStateMessage& joint : controller_.Take().joints) EXPECT_FALSE(joint.clock_stood);
 }
 
 TEST_F(Wall, AStaleCommandIsRefused) {

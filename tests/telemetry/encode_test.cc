@@ -80,6 +80,7 @@ TEST(Encode, AdaptationTimingBusAndEventHaveEveryFieldInItsPlace) {
                                  t.cycle_ns, t.missed, t.overruns,   t.dropped};
   const std::int64_t expected_timing[] = {101, 102, 103, 104, 105, 156, 157, 158};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(timing[i], expected_timing[i]) << i;
+  EXPECT_TRUE(t.clock_stood);
 
   const auto b = Decode<reed::bus_t>(encoder.Bus(snapshot.bus, 50, 3));
   const std::int64_t counters[] = {

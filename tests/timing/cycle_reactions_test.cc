@@ -58,5 +58,42 @@ TEST(CycleReactions, TooManyBrokenBudgetsInARowStopTheArmInTheSameCycle) {
   EXPECT_TRUE(rig.TorqueIsZero());
 }
 
+/// The answers of the next cycle say that the simulated arm's clock had stood still.
+void MarkTheNextAnswers(test::SilRig& rig) {
+  rig.on_the_way = [next = rig.cycle_number()](std::uint32_t cycle, bus::Frame& frame) {
+    if (cycle != next || frame.id == bus::layout::kWrench.id) return true;
+    constexpr std::uint8_t kMark = 1 << 3;  // bit 27 of JOINT_STATE
+    frame.data[3] |= kMark;
+    const std::size_t joint = frame.id - bus::layout::kJointState[0].id;
+    const std::uint16_t data_id = bus::layout::kJointState[joint].data_id;
+    const std::array<std::uint8_t, 2> id{static_cast<std::uint8_t>(data_id & 0xFF),
+                                         static_cast<std::uint8_t>(data_id >> 8)};
+    const std::uint16_t crc = bus::Crc16(id, bus::Crc16(std::span(frame.data).first(frame.size).subspan(2)));
+    frame.data[0] = static_cast<std::uint8_t>(crc & 0xFF);
+    frame.data[1] = static_cast<std::uint8_t>(crc >> 8);
+    return true;
+  };
+}
+
+TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
+  LoopState missed;
+  missed.missed_in_row_exceeded = true;
+  missed.missed_in_row = 42;
+  for (const bool stood : {false, true}) {
+    test::SilRig rig(Pressing());
+    ASSERT_TRUE(rig.RunActive(0.3));
+    if (stood) MarkTheNextAnswers(rig);
+    rig.Run(missed);
+    EXPECT_EQ(rig.snapshot().timing.clock_stood, stood);
+    EXPECT_EQ(rig.mode(), stood ? mode::Mode::kActive : mode::Mode::kFault);
+    EXPECT_EQ(rig.trip(), stood ? protect::Reason::kNone : protect::Reason::kMissedCycles);
+    if (!stood) continue;
+    rig.Run();
+    EXPECT_FALSE(rig.snapshot().timing.clock_stood) << "the mark is one cycle's";
+    rig.Run(missed);
+    EXPECT_EQ(rig.mode(), mode::Mode::kFault) << "and excuses that cycle only";
+  }
+}
+
 }  // namespace
 }  // namespace reed

@@ -12,7 +12,8 @@ namespace reed::test {
 /// What one cycle does with time. ns.
 struct CycleCost {
   std::int64_t rx = 100'000, compute = 50'000, tx = 10'000;
-  std::int64_t after = 0;  // behind the last border: a stall that no phase shows
+  std::int64_t after = 0;    // behind the last border: a stall that no phase shows
+  bool clock_stood = false;  // an answer said so
 };
 
 class FakeCycle final : public CycleBase {
@@ -31,6 +32,7 @@ class FakeCycle final : public CycleBase {
     snapshot.timing.rx_ns = static_cast<std::int32_t>(now.rx);
     snapshot.timing.compute_ns = static_cast<std::int32_t>(now.compute);
     snapshot.timing.tx_ns = static_cast<std::int32_t>(now.tx);
+    snapshot.timing.clock_stood = now.clock_stood;
     snapshot.bus.frames_rx = silent ? 0 : cycle;
     if (loop.missed_in_row_exceeded || loop.phase_budget_exceeded) {
       stopped_at = static_cast<int>(cycle);

@@ -116,6 +116,20 @@ TEST(WallLoop, LateCyclesThatThenTakeTheirTimeDoNotAddUp) {
   EXPECT_EQ(longer.cycle.seen[1].missed_in_row, 20) << "the figure of the trip";
 }
 
+TEST(WallLoop, WhatWasMissedWhileTheArmsClockStoodStillIsCountedAndStopsNothing) {
+  Rig rig(40);
+  rig.cycle.cost = [](std::uint32_t k) {
+    test::CycleCost cost;
+    cost.after = k == 5 || k == 9 ? 42 * kMs : 0;
+    cost.clock_stood = k == 5;
+    return cost;
+  };
+  EXPECT_EQ(rig.Run().missed, 84);
+  EXPECT_FALSE(rig.cycle.seen[6].missed_in_row_exceeded);
+  EXPECT_EQ(rig.cycle.seen[6].missed_in_row, 0);
+  EXPECT_EQ(rig.cycle.stopped_at, 10) << "the second stall is the loop's own";
+}
+
 TEST(WallLoop, SkipLeavesOneMorePointFree) {
   Rig rig(20);
   rig.options.overrun = rt::OverrunPolicy::kSkip;

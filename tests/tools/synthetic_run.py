@@ -114,6 +114,7 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
         timing.cycle_ns = 200_000
         timing.missed = 0 if cycle < 1000 else 3
         timing.overruns = 0 if cycle < 1000 else 1
+        timing.clock_stood = cycle == 1001  # a stall behind the answer of cycle 1000
         yield "firmware", "REED_TIMING", timing
 
         plant = stamp(reed.plant_t(), cycle)
@@ -122,6 +123,7 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
         plant.tip = [0.4 + 3e-3, 0.0, 0.3 - 4e-3]
         plant.normal_force = force_true(t)
         plant.gap = -1e-4
+        plant.stalls, plant.stood_s = (0, 0.0) if cycle < 1001 else (1, 0.0031)
         yield "plant", "REED_PLANT", plant
 
 

@@ -78,6 +78,11 @@ def test_timing_has_no_wake_in_lockstep_and_percentiles_on_the_wall_clock(tmp_pa
     assert wall["timing_us"]["wake"]["p50"] == pytest.approx(20.0 + 1.5495, abs=1e-3)
 
 
+def test_what_the_machine_took_is_told_with_the_cycles_missed_meanwhile(tmp_path, run):
+    assert run["machine"] is None, "lockstep follows no clock"
+    assert build(recorded(tmp_path, clock="wall"))["machine"] == {"stalls": 1, "stood_s": 0.0031, "missed_cycles": 3}
+
+
 def test_counters_come_from_the_programs_own_messages(run):
     assert run["bus"] == {"kind": "udp", "interface": "239.74.163.2:43113", "fd": True, "frames_rx": 9300, "frames_tx": 6200,
                           "lost": 2, "crc_errors": 1, "repeated": 0, "wire_load_percent": 61.5}

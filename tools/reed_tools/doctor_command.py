@@ -108,7 +108,7 @@ def processors() -> Finding:
     count = len(os.sched_getaffinity(0))
     isolated = Path("/sys/devices/system/cpu/isolated").read_text().strip()
     return Finding("processors", count >= 2, f"{count} usable, isolated: {isolated or 'none'}",
-                   "" if count >= 2 else "the loop and the plant want a core each")
+                   "" if count >= 2 else "the loop shares its core with everything else: give the machine a second one")
 
 
 def spy() -> Finding:

@@ -55,7 +55,7 @@ def timing(summary: dict) -> Table:
 
 def lines(summary: dict) -> list[str]:
     """What does not fit a table."""
-    bus, loop = summary["bus"], summary["loop"]
+    bus, loop, machine = summary["bus"], summary["loop"], summary.get("machine")
     wire = number(bus["wire_load_percent"], 3)
     speed = f", {summary['sim_s'] / summary['wall_s']:.1f}× real time" if summary["wall_s"] else ""
     return [
@@ -64,6 +64,8 @@ def lines(summary: dict) -> list[str]:
         f"{wire} % of a 1/5 Mbit/s wire",
         f"clock  {summary['clock']}, {summary['rate_hz']:g} Hz, {summary['cycles']} cycles, {number(summary['missed_cycles'])} missed, "
         f"{number(summary['overruns'])} overruns{speed}",
+        *([f"stalls {machine['stalls']} of the machine, {1e3 * machine['stood_s']:.0f} ms in all, {machine['missed_cycles']} of the missed "
+           "cycles: the arm's clock stood still"] if machine and machine["stalls"] else []),
         f"loop   {number(loop['heap_allocations'])} heap allocations, {number(loop['page_faults'])} page faults, "
         f"{number(loop['telemetry_dropped'])} snapshots dropped; scheduler {loop['scheduler']}, "
         f"memory {'locked' if loop['memory_locked'] else 'not locked'}",

@@ -4,6 +4,8 @@ import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
+
 from reed_tools import checks, metrics, scenario
 from reed_tools.signals import Signals, join
 from reed_tools.telemetry_log import Recording
@@ -30,6 +32,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "checks": verdicts,
         "bus": bus(recording),
         **clock_figures(recording, rate_hz),
+        "machine": machine(recording, clock),
         "timing_us": metrics.timing_us(recording, clock),
         "loop": {name: getattr(run, name) if run else None for name in
                  ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
@@ -64,6 +67,19 @@ def clock_figures(recording: Recording, rate_hz: float) -> dict:
             "missed_cycles": int(timing["missed"][-1]) if some else None,
             "overruns": int(timing["overruns"][-1]) if some else None,
             "wall_s": round(run.wall_s, 6) if run else None, "sim_s": round(count / rate_hz, 6)}
+
+
+def machine(recording: Recording, clock: str | None) -> dict | None:
+    """What the machine took from the run: how often it ran neither program, for how long the arm's clock stood still with them,
+    and the cycles missed meanwhile. None where no clock is followed."""
+    timing, plant = recording.tables["REED_TIMING"], recording.tables["REED_PLANT"]
+    if clock != "wall" or not recording.has("REED_TIMING") or not recording.has("REED_PLANT"):
+        return None
+    # A stall before the cycle is told in its own answer, one behind the answer in the next cycle's.
+    told = timing["clock_stood"].astype(bool)
+    away = told | np.append(told[1:], False)
+    return {"stalls": int(plant["stalls"][-1]), "stood_s": round(float(plant["stood_s"][-1]), 6),
+            "missed_cycles": int(np.diff(timing["missed"], prepend=0)[away].sum())}
 
 
 def write(folder: Path, summary: dict) -> None:

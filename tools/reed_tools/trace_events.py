@@ -36,6 +36,8 @@ def trace(messages) -> tuple[list[dict], int]:
             if message.missed > missed:
                 events.append(instant("missed", at_us + message.cycle_ns / 1e3, {"cycles": message.missed - missed}))
             missed = message.missed
+            if message.clock_stood:
+                events.append(instant("the arm's clock had stood still", at_us, {}))
         elif channel == "REED_EVENT":
             events.append(instant(message.text, at_us, {"code": message.code, "joint": message.joint, "value": message.value,
                                                         "mode": message.mode, "cycle": message.cycle}))

@@ -1,0 +1,54 @@
+#include "plant_sim/process/stall_watch.h"
+
+#include <sched.h>
+#include <sys/prctl.h>
+
+#include <ctime>
+
+#include "bus/monotonic.h"
+
+namespace reed::plant {
+namespace {
+
+std::int64_t TimerResolution_ns() {
+  timespec resolution{};
+  clock_getres(CLOCK_MONOTONIC, &resolution);
+  return resolution.tv_sec * bus::kNsPerSecond + resolution.tv_nsec;
+}
+
+}  // namespace
+
+std::string StallWatch::Start(int priority) {
+  if (TimerResolution_ns() > kStall_ns) {
+    return "stalls of the machine hurt the arm, its timers are too coarse to tell them (" +
+           std::to_string(TimerResolution_ns() / 1000) + " us); fix: a kernel with CONFIG_HIGH_RES_TIMERS";
+  }
+  thread_ = std::thread([this, priority] {
+    sched_param param{};
+    param.sched_priority = priority;
+    sched_setscheduler(0, SCHED_FIFO, &param);  // a refusal was reported for the program itself
+    prctl(PR_SET_TIMERSLACK, 1UL);
+    Watch();
+  });
+  return "";
+}
+
+StallWatch::~StallWatch() {
+  stop_.store(true, std::memory_order_relaxed);
+  if (thread_.joinable()) thread_.join();
+}
+
+void StallWatch::Watch() noexcept {
+  std::int64_t due_ns = bus::NowNs();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    due_ns += kBeat_ns;
+    const timespec due{due_ns / bus::kNsPerSecond, due_ns % bus::kNsPerSecond};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
+    const std::int64_t late_ns = bus::NowNs() - due_ns;
+    if (late_ns < kStall_ns) continue;
+    stood_ns_.store(stood_ns_.load(std::memory_order_relaxed) + late_ns, std::memory_order_relaxed);
+    due_ns += late_ns;
+  }
+}
+
+}  // namespace reed::plant

@@ -1,0 +1,77 @@
+// The watch against a thread that really takes its core away, from above and from below.
+#include "plant_sim/process/stall_watch.h"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "bus/monotonic.h"
+#include "config/schema/cores.h"
+
+namespace reed::plant {
+namespace {
+
+constexpr int kWatch = 50;  // its priority
+constexpr std::int64_t kMs = 1'000'000;
+
+void PinToLastCore() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<std::size_t>(LoopCore({})), &cores);
+  ASSERT_EQ(sched_setaffinity(0, sizeof cores, &cores), 0);
+}
+
+/// Keeps the last core busy for so long at this priority of SCHED_FIFO; false if that is not granted.
+bool Hog(int priority, std::int64_t for_ns) {
+  bool granted = false;
+  std::thread([&] {
+    PinToLastCore();
+    sched_param param{};
+    param.sched_priority = priority;
+    granted = sched_setscheduler(0, SCHED_FIFO, &param) == 0;
+    const std::int64_t end_ns = bus::NowNs() + for_ns;
+    while (granted && bus::NowNs() < end_ns) {
+    }
+  }).join();
+  return granted;
+}
+
+/// What a watch on the last core sees of such a thread; nothing where SCHED_FIFO is not granted.
+std::optional<std::int64_t> Seen(int hog_priority, std::int64_t for_ns) {
+  std::optional<std::int64_t> seen;
+  std::thread([&] {
+    PinToLastCore();
+    StallWatch watch;
+    EXPECT_EQ(watch.Start(kWatch), "");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const std::int64_t before_ns = watch.stood_ns();
+    if (!Hog(hog_priority, for_ns)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    seen = watch.stood_ns() - before_ns;
+  }).join();
+  return seen;
+}
+
+TEST(StallWatch, SeesACoreThatIsTakenAwayToWithinABeat) {
+  const std::optional<std::int64_t> seen_ns = Seen(kWatch + 1, 30 * kMs);
+  if (!seen_ns) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+  EXPECT_GE(*seen_ns, 28 * kMs);
+}
+
+TEST(StallWatch, DoesNotTakeABusyControllerForTheMachine) {
+  std::int64_t least_ns = 30 * kMs;  // of some: the machine may really be away in any of them
+  for (int i = 0; i < 20 && least_ns > 0; ++i) {
+    const std::optional<std::int64_t> seen_ns = Seen(kWatch - 1, 30 * kMs);
+    if (!seen_ns) GTEST_SKIP() << "SCHED_FIFO is not granted here";
+    least_ns = std::min(least_ns, *seen_ns);
+  }
+  EXPECT_LT(least_ns, 10 * kMs);
+}
+
+TEST(StallWatch, NothingIsWatchedBeforeTheStart) { EXPECT_EQ(StallWatch().stood_ns(), 0); }
+
+}  // namespace
+}  // namespace reed::plant

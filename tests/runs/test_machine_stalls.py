@@ -1,0 +1,76 @@
+"""A machine that is taken away for a while, and a controller that is: the first may not stop the arm, the second must."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from reed_tools.paths import BUILD, ROOT
+from reed_tools.telemetry_log import load
+
+BUS = "udp:239.74.163.2:46393"
+CORE = max(os.sched_getaffinity(0))  # where both programs run when nothing else is said
+CLOCK_STOOD = 212                    # plant_sim/telemetry/records.h
+THIEF = """
+import os, sys, time
+os.sched_setaffinity(0, {int(sys.argv[1])})
+os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(99))
+print("at work", flush=True)
+while True:
+    time.sleep(0.25)
+    end = time.monotonic() + 0.04
+    while time.monotonic() < end:
+        pass
+"""
+
+
+@pytest.fixture
+def stolen_core():
+    """Takes the core away for 40 ms, twice what drives and controller bear, some three times a second."""
+    thief = subprocess.Popen([sys.executable, "-c", THIEF, str(CORE)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    if thief.stdout.readline() != "at work\n":
+        pytest.skip("SCHED_FIFO 99 is not granted here")
+    yield
+    thief.kill()
+    thief.wait()
+
+
+def test_a_core_that_is_taken_away_for_40_ms_is_counted_and_stops_nothing(stolen_core, tmp_path):
+    done = subprocess.run([sys.executable, "-m", "reed_tools", "run", "--clock", "wall", "--bus", BUS, "--out", str(tmp_path / "run")],
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "tools")}, capture_output=True, text=True, timeout=120)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert done.returncode in (0, 1), done.stderr
+    assert [mode["mode"] for mode in summary["modes"]] == ["off", "ready", "active", "ready"]
+    assert {check["name"]: check["value"] for check in summary["checks"]}["faults"] == 0
+    machine = summary["machine"]
+    assert machine["stalls"] >= 5 and machine["stood_s"] > 0.15
+    assert summary["missed_cycles"] >= machine["missed_cycles"] > 150, "each of them is counted"
+    assert "stalls" in done.stdout and "the arm's clock stood still" in done.stdout
+    recording = load(tmp_path / "run" / "telemetry.lcmlog")
+    assert recording.run.cpu == CORE
+    assert sum(event.code == CLOCK_STOOD for event in recording.singles["REED_PLANT_EVENT"]) >= 5
+
+
+def test_a_controller_that_is_stopped_for_60_ms_is_not_excused():
+    common = ["--config", "press_known", "--bus", BUS, "--clock", "wall", "--no-lcm"]
+    plant = subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *common], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        assert "waiting for SYNC" in plant.stdout.readline()
+        firmware = subprocess.Popen([str(BUILD / "bin" / "reed_firmware"), *common, "--enable"], stdout=subprocess.DEVNULL,
+                                    stderr=subprocess.PIPE, text=True)
+        while "released" not in plant.stdout.readline():
+            assert firmware.poll() is None
+        time.sleep(0.2)
+        firmware.send_signal(signal.SIGSTOP)
+        time.sleep(0.06)
+        firmware.send_signal(signal.SIGCONT)
+        complaint = firmware.communicate(timeout=30)[1].splitlines()[-1]
+        assert firmware.returncode == 1
+        assert "too many missed cycles" in complaint or "closed brake" in complaint
+    finally:
+        plant.send_signal(signal.SIGINT)
+        plant.communicate(timeout=20)
