@@ -1,5 +1,5 @@
 """Stands in for reed_firmware and reed_plant_sim: same options, same exit statuses, a synthetic log. What it does comes from
-REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), refuse, die, hang or endless."""
+REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), refuse, die or endless."""
 
 import argparse
 import os
@@ -27,6 +27,8 @@ def main() -> int:
     if behaviour == "refuse":
         print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
         return 2
+    if name == "firmware":
+        hear_the_plant(Path(options.log).parent)
     write_own_log(name, Path(options.log), options.clock)
     if behaviour == "die":
         print("bus lost: vcan0 went away", file=sys.stderr)
@@ -37,6 +39,13 @@ def main() -> int:
         with open(Path(options.log).parent / "stopped", "a") as file:
             file.write(name + "\n")
     return 0
+
+
+def hear_the_plant(folder: Path, patience_s: float = 20.0) -> None:
+    """A controller's run needs the plant's answers: it cannot end before a plant is up and can be asked to stop."""
+    end = time.monotonic() + patience_s
+    while os.environ.get("REED_FAKE_PLANT") != "refuse" and not (folder / "plant.lcmlog").exists() and time.monotonic() < end:
+        time.sleep(0.01)
 
 
 def write_own_log(name: str, path: Path, clock: str) -> None:
