@@ -96,9 +96,9 @@ run_t Describe(const Options& options, const Scenario& scenario, const bus::Tran
 }
 
 void Complete(run_t& run, const Flight& flight) {
-  run.finished = true;
+  run.finished = static_cast<std::int8_t>(true);
   run.scheduler = flight.report.scheduler;
-  run.memory_locked = flight.report.memory.granted;
+  run.memory_locked = static_cast<std::int8_t>(flight.report.memory.granted);
   run.cpu = flight.report.cpu;
   run.heap_allocations = flight.heap_allocations;
   run.page_faults = flight.usage.page_faults();

@@ -7,8 +7,10 @@
 #include <exception>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "bus/open_transport.h"
+#include "config/schema/cores.h"
 #include "plant_sim/endpoint/flexible_arm_body.h"
 #include "plant_sim/endpoint/lockstep_endpoint.h"
 #include "plant_sim/endpoint/wall_endpoint.h"
@@ -61,11 +63,11 @@ int Run(const Options& options) {
   const std::unique_ptr<Endpoint> endpoint =
       MakeEndpoint(options, scenario, *transport, body, publisher, watch);
   if (wall) {
-    for (const std::string& line : AskForRealtime(scenario.timing)) {
-      std::fprintf(stderr, "reed_plant_sim: %s\n", line.c_str());
-    }
-    if (const std::string refused = watch.Start(scenario.timing.priority + 1); !refused.empty()) {
-      std::fprintf(stderr, "reed_plant_sim: %s\n", refused.c_str());
+    const TimingConfig& timing = scenario.timing;
+    std::vector<std::string> refused{watch.Start(PlantCore(timing), timing.priority + 1)};
+    for (const std::string& line : AskForRealtime(timing)) refused.push_back(line);
+    for (const std::string& line : refused) {
+      if (!line.empty()) std::fprintf(stderr, "reed_plant_sim: %s\n", line.c_str());
     }
   }
 

@@ -4,18 +4,24 @@
 #include <sys/mman.h>
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include "config/schema/cores.h"
 
 namespace reed::plant {
+namespace {
+
+/// What the last system call complained of.
+std::string ErrnoText() { return std::error_code(errno, std::generic_category()).message(); }
+
+}  // namespace
 
 std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
   std::vector<std::string> refused;
   // Every page now and later: a page fault in a step costs more than the step (mlockall(2), notes on real
   // time).
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    refused.push_back(std::string("memory not locked (") + std::strerror(errno) +
+    refused.push_back(std::string("memory not locked (") + ErrnoText() +
                       "); fix: ulimit -l unlimited, or memlock in /etc/security/limits.conf");
   }
   // Level with the loop: on one CPU neither interrupts the other, so an answer is complete before the loop
@@ -24,16 +30,16 @@ std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
   sched_param param{};
   param.sched_priority = timing.priority;
   if (sched_setscheduler(0, SCHED_FIFO, &param) != 0) {
-    refused.push_back("SCHED_FIFO " + std::to_string(param.sched_priority) + " not granted (" +
-                      std::strerror(errno) + "); fix: run as root, or rtprio " +
-                      std::to_string(param.sched_priority) + " in /etc/security/limits.conf");
+    refused.push_back("SCHED_FIFO " + std::to_string(param.sched_priority) + " not granted (" + ErrnoText() +
+                      "); fix: run as root, or rtprio " + std::to_string(param.sched_priority) +
+                      " in /etc/security/limits.conf");
   }
   const int core = PlantCore(timing);
   cpu_set_t cores;
   CPU_ZERO(&cores);
   CPU_SET(static_cast<std::size_t>(core), &cores);
   if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
-    refused.push_back("core " + std::to_string(core) + " not granted (" + std::strerror(errno) +
+    refused.push_back("core " + std::to_string(core) + " not granted (" + ErrnoText() +
                       "); fix: timing.plant_cpu must be a core of this machine");
   }
   return refused;

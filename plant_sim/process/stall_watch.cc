@@ -18,15 +18,20 @@ std::int64_t TimerResolution_ns() {
 
 }  // namespace
 
-std::string StallWatch::Start(int priority) {
+std::string StallWatch::Start(int core, int priority) {
   if (TimerResolution_ns() > kStall_ns) {
     return "stalls of the machine hurt the arm, its timers are too coarse to tell them (" +
            std::to_string(TimerResolution_ns() / 1000) + " us); fix: a kernel with CONFIG_HIGH_RES_TIMERS";
   }
-  thread_ = std::thread([this, priority] {
+  thread_ = std::thread([this, core, priority] {
+    // What is refused here is refused to the program itself, which says so.
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    CPU_SET(static_cast<std::size_t>(core), &cores);
+    sched_setaffinity(0, sizeof cores, &cores);
     sched_param param{};
     param.sched_priority = priority;
-    sched_setscheduler(0, SCHED_FIFO, &param);  // a refusal was reported for the program itself
+    sched_setscheduler(0, SCHED_FIFO, &param);
     prctl(PR_SET_TIMERSLACK, 1UL);
     Watch();
   });

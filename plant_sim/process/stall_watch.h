@@ -18,10 +18,10 @@ class StallWatch {
   StallWatch(const StallWatch&) = delete;
   StallWatch& operator=(const StallWatch&) = delete;
 
-  /// Watches the core that the calling thread is pinned to, at this priority of SCHED_FIFO: one above both
-  /// programs, so that none of them can be taken for the machine. Returns why nothing is watched, with the
-  /// fix, or "".
-  std::string Start(int priority);
+  /// Watches this core at this priority of SCHED_FIFO: one above both programs, so that none of them can be
+  /// taken for the machine. Before memory is locked, which a new thread's stack may not survive. Returns why
+  /// nothing is watched, with the fix, or "".
+  std::string Start(int core, int priority);
 
   /// Time since the start in which the machine was away. RT: safe, any thread.
   std::int64_t stood_ns() const noexcept { return stood_ns_.load(std::memory_order_relaxed); }

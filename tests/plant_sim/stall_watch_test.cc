@@ -43,9 +43,8 @@ bool Hog(int priority, std::int64_t for_ns) {
 std::optional<std::int64_t> Seen(int hog_priority, std::int64_t for_ns) {
   std::optional<std::int64_t> seen;
   std::thread([&] {
-    PinToLastCore();
     StallWatch watch;
-    EXPECT_EQ(watch.Start(kWatch), "");
+    EXPECT_EQ(watch.Start(LoopCore({}), kWatch), "");
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const std::int64_t before_ns = watch.stood_ns();
     if (!Hog(hog_priority, for_ns)) return;

@@ -18,7 +18,7 @@ namespace {
 
 PlantRecord NumberedRecord(int k) {
   PlantRecord record;
-  record.utime = 1000 * k;
+  record.utime = std::int64_t{1000} * k;
   record.cycle = k;
   record.t_s = 1e-3 * k;
   record.dof = 2;
@@ -28,7 +28,7 @@ PlantRecord NumberedRecord(int k) {
   record.tip = {0.1, 0.2, 0.3};
   record.gap = 1e9;
   record.potential_J = 7.0;
-  record.stalls = 3 * k;
+  record.stalls = std::int64_t{3} * k;
   record.stood_s = 0.25;
   return record;
 }
@@ -125,7 +125,7 @@ TEST_F(PublisherLog, HoldsEveryRecordInOrderWithItsNumbersWhenTheProducerWaits) 
     EXPECT_EQ(m.tip[2], 0.3);
     EXPECT_EQ(m.gap, 1e9);
     EXPECT_EQ(m.potential_J, 7.0);
-    EXPECT_EQ(m.stalls, 3 * k);
+    EXPECT_EQ(m.stalls, std::int64_t{3} * k);
     EXPECT_EQ(m.stood_s, 0.25);
     lcm_eventlog_free_event(entry);
   }
