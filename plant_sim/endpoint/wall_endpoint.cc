@@ -59,7 +59,8 @@ std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
     standstill_.since_answer = true;
     if (stall_ns >= kWorthALine_ns) {
       journal().Note(PlantEvent::kClockStood, robot().drives().state(), stall_s,
-                     "the machine was away for %.1f ms; the arm's clock stood still", 1e3 * stall_s);
+                     "the machine was away for %.1f ms at %.3f s; the arm's clock stood still", 1e3 * stall_s,
+                     robot().time_s());
     }
   }
   return now_ns - stood_ns;

@@ -16,9 +16,8 @@ namespace reed::plant {
 struct WallClock {
   std::function<std::int64_t()> monotonic_ns;
   std::function<std::int64_t()> realtime_us;
-  std::function<std::int64_t()> stood_ns = [] {
-    return std::int64_t{0};
-  };  // of monotonic_ns, the machine away
+  /// How much of monotonic_ns the machine was away.
+  std::function<std::int64_t()> stood_ns = [] { return std::int64_t{0}; };
   static WallClock System();
 };
 
@@ -30,6 +29,8 @@ class WallEndpoint final : public Endpoint {
  private:
   /// A machine that is this far behind gives the time up (and says so) instead of chasing it for ever.
   static constexpr std::int64_t kMaxCatchUp_ns = 250'000'000;
+  /// A stall this long is worth a line; shorter ones are counted.
+  static constexpr std::int64_t kWorthALine_ns = 10'000'000;
 
   void Handle(std::span<const Incoming> incoming) override;
   void OnSync(const Incoming& sync, std::int64_t now_ns);
@@ -41,11 +42,8 @@ class WallEndpoint final : public Endpoint {
 
   WallClock clock_;
   std::int64_t max_step_ns_;
-  /// A stall this long is worth a line; shorter ones are counted.
-  static constexpr std::int64_t kWorthALine_ns = 10'000'000;
-
   std::int64_t integrated_ns_ = 0;  // instant of the arm's state on its own clock
-  std::int64_t stood_ns_ = 0;       // of the machine's clock, known so far
+  std::int64_t stood_ns_ = 0;       // clock_.stood_ns() as known so far
   Standstill standstill_;
   std::int64_t real_minus_monotonic_us_ = 0;  // one reading of the clock serves both times of a cycle
   std::uint32_t cycle_ = 0;

@@ -1,0 +1,108 @@
+// The legs of a scenario as paths of three arms: lines, slides, joints without a jump; refusals by name.
+#include <gtest/gtest.h>
+
+#include "tests/firmware/reference_bench.h"
+
+namespace reed::reference {
+namespace {
+
+ReferenceLeg Leg(ReferenceLeg::Kind kind, double duration_s) {
+  ReferenceLeg leg;
+  leg.kind = kind;
+  leg.duration_s = duration_s;
+  return leg;
+}
+
+TEST(PathPlanner, ACartesianLegIsAStraightMinimumJerkLineOfTheTip) {
+  Bench<5> bench(test::ArmA5());
+  ReferenceLeg leg = Leg(ReferenceLeg::Kind::kCartesian, 0.5);
+  leg.by_m = Eigen::Vector3d(0.02, -0.01, -0.03);
+  const JointPath<5> path = bench.Plan(PoseA5(), {leg});
+  const Eigen::Vector3d start = bench.At(PoseA5()).tip;
+  for (double t = 0.0; t < 0.5; t += 0.0137) {
+    const control::Reference<5> at = path.At(t);
+    const Blend blend = MinimumJerk(t, 0.5);
+    const model::Kinematics<5> kin = bench.At(at.theta_d);
+    EXPECT_LT((kin.tip - start - blend.s * leg.by_m).norm(), 2e-8) << t;
+    EXPECT_LT((kin.J.topRows<3>() * at.theta_d_dot - blend.s_dot * leg.by_m).norm(), 2e-5) << t;
+  }
+  EXPECT_LT((bench.At(path.At(0.5).theta_d).tip - start - leg.by_m).norm(), 1e-11);
+}
+
+TEST(PathPlanner, ASlideIsASinusoidOfTheTipAboutTheStartOfItsLeg) {
+  Bench<5> bench(test::ArmA5());
+  ReferenceLeg hold = Leg(ReferenceLeg::Kind::kHold, 0.2);
+  ReferenceLeg leg = Leg(ReferenceLeg::Kind::kSlide, 10.0);
+  leg.amplitude_m = Eigen::Vector3d(0.02, 0.02, 0.0);
+  leg.frequency_hz = 0.5;
+  const JointPath<5> path = bench.Plan(PoseA5(), {hold, leg});
+  const Eigen::Vector3d start = bench.At(PoseA5()).tip;
+  EXPECT_EQ(path.At(0.1).theta_d, PoseA5());
+  for (double t = 1.3; t < 1.95; t += 0.0137)  // the fade-in of half a period is over
+    EXPECT_LT(
+        (bench.At(path.At(t).theta_d).tip - start - std::sin(3.14159265358979 * (t - 0.2)) * leg.amplitude_m)
+            .norm(),
+        1e-8);
+}
+
+TEST(PathPlanner, JointLegsFollowEachOtherWithoutAJump) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 0.6);
+  move.to_rad = {0.8, -0.5};
+  ReferenceLeg sine = Leg(ReferenceLeg::Kind::kSine, 5.0);
+  sine.amplitude_rad = {0.1, 0.2};
+  sine.frequency_hz = 1.0;
+  const model::Vec<2> start(0.4, 1.1);
+  const JointPath<2> path = bench.Plan(start, {move, Leg(ReferenceLeg::Kind::kHold, 0.2), sine});
+  EXPECT_LT((path.At(0.3).theta_d - 0.5 * (start + model::Vec<2>(0.8, -0.5))).norm(), 1e-12);
+  EXPECT_LT((path.At(0.7).theta_d - model::Vec<2>(0.8, -0.5)).norm(), 1e-12);
+  EXPECT_LT((path.At(1.55).theta_d - model::Vec<2>(0.8, -0.5) -
+             std::sin(2.0 * 3.14159265358979 * 0.75) * model::Vec<2>(0.1, 0.2))
+                .norm(),
+            1e-9);
+  control::Reference<2> before = path.At(0.0);
+  for (double t = 1e-4; t < 2.0; t += 1e-4) {
+    const control::Reference<2> at = path.At(t);
+    EXPECT_LT((at.theta_d_dot - before.theta_d_dot).norm(), 0.02) << t;
+    EXPECT_LT((0.5e-4 * (at.theta_d_dot + before.theta_d_dot) - (at.theta_d - before.theta_d)).norm(), 1e-8)
+        << t;
+    before = at;
+  }
+}
+
+TEST(PathPlanner, TheKnotsHoldTheRunEvenWhenTheLegsAreShorterThanOneSpacing) {
+  Bench<2> bench(test::ArmP2());
+  const JointPath<2> path = bench.Plan({0.4, 1.1}, {Leg(ReferenceLeg::Kind::kHold, 1e-3)});
+  EXPECT_EQ(path.At(0.01).theta_d, model::Vec<2>(0.4, 1.1));
+}
+
+TEST(PathPlanner, ALegThatLeavesTheJointRangeIsRefusedByJointTimeAndRange) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 1.0);
+  move.to_rad = {0.4, 2.99};  // 3.0 minus the margin 0.05 is less
+  const std::string line = bench.Refusal({0.4, 1.1}, {move});
+  for (const char* word : {"reference.legs", "joint 2", "beyond its limit", "2.95", " s"})
+    EXPECT_NE(line.find(word), std::string::npos) << word << " is missing in: " << line;
+}
+
+TEST(PathPlanner, ALegThatIsTooFastIsRefusedByJointTimeAndSpeed) {
+  Bench<2> bench(test::ArmP2());
+  bench.scenario.arm.speed_limit_radps = {10.0, 1.5};
+  ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 1.0);
+  move.to_rad = {0.4, 0.2};  // peak 1.875 * 0.9 rad/s
+  const std::string line = bench.Refusal({0.4, 1.1}, {move});
+  for (const char* word : {"reference.legs", "joint 2", "too fast", "1.5", "rad/s"})
+    EXPECT_NE(line.find(word), std::string::npos) << word << " is missing in: " << line;
+  bench.scenario.arm.speed_limit_radps = {10.0, 1.7};
+  EXPECT_EQ(bench.Refusal({0.4, 1.1}, {move}), "accepted");
+}
+
+TEST(PathPlanner, ALegBeyondTheReachIsRefused) {
+  Bench<5> bench(test::ArmA5());
+  ReferenceLeg leg = Leg(ReferenceLeg::Kind::kCartesian, 1.0);
+  leg.by_m = Eigen::Vector3d(3.0, 0.0, 0.0);
+  EXPECT_NE(bench.Refusal(PoseA5(), {leg}).find("reach"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace reed::reference
