@@ -1,9 +1,7 @@
 #include "config/schema/arm_file.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-
+#include "config/schema/arm_bodies.h"
+#include "config/schema/arm_parameters.h"
 #include "config/schema/reader.h"
 
 namespace reed {
@@ -11,40 +9,12 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr Bound kAngle{"rad", -kTwoPi, kTwoPi};  // beyond: degrees
-constexpr Bound kLength{"m", -10.0, 10.0};       // beyond: millimetres
-constexpr Bound kMass{"kg", 0.0, 500.0};
-constexpr Bound kMoment{"kg·m²", -500.0, 500.0};
 constexpr Bound kGravity{"m/s²", -30.0, 30.0};
 
 constexpr double kDefaultRange_rad = 2.9;
 constexpr double kDefaultSpeed_radps = 3.0;
 
 using Numbers = std::vector<double>;
-
-/// A list of equally long rows of numbers.
-std::vector<Numbers> Rows(Reader& in, const char* key, std::size_t width) {
-  toml::node* node = in.Get(key);
-  std::vector<Numbers> rows;
-  if (node == nullptr) return rows;
-  const toml::array* array = node->as_array();
-  if (array == nullptr) in.Fail(key, "expected a list of rows of " + std::to_string(width) + " numbers");
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string name = std::string(key) + "[" + std::to_string(i) + "]";
-    const toml::array* row = (*array)[i].as_array();
-    if (row == nullptr || row->size() != width)
-      in.document().Fail(&(*array)[i], in.KeyName(name),
-                         "expected a row of " + std::to_string(width) + " numbers");
-    Numbers numbers;
-    for (const toml::node& cell : *row) {
-      const auto number = cell.value<double>();
-      if (!number || !std::isfinite(*number))
-        in.document().Fail(&cell, in.KeyName(name), "expected a finite number");
-      numbers.push_back(*number);
-    }
-    rows.push_back(numbers);
-  }
-  return rows;
-}
 
 void CheckWithin(Reader& in, const toml::node* where, const std::string& key, double value,
                  const Bound& bound, const char* hint) {
@@ -54,7 +24,7 @@ void CheckWithin(Reader& in, const toml::node* where, const std::string& key, do
 }
 
 std::vector<DhRow> ReadDh(Reader& in) {
-  const std::vector<Numbers> rows = Rows(in, "dh", 3);
+  const std::vector<Numbers> rows = ReadRows(in, "dh", 3);
   if (rows.empty()) in.Fail("dh", "missing; one row [alpha_{i-1} rad, a_{i-1} m, d_i m] per joint");
   if (rows.size() > static_cast<std::size_t>(kMaxJoints))
     in.Fail("dh", std::to_string(rows.size()) + " joints; allowed: 1 ... " + std::to_string(kMaxJoints));
@@ -68,176 +38,6 @@ std::vector<DhRow> ReadDh(Reader& in) {
     dh.push_back({rows[i][0], rows[i][1], rows[i][2]});
   }
   return dh;
-}
-
-/// A rigid body's inertia about its centre of mass: symmetric, no negative moment, each at most the sum of
-/// the others.
-void CheckInertia(Reader& in, const std::string& key, const Eigen::Matrix3d& inertia, bool only_about_z) {
-  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * (1.0 + inertia.cwiseAbs().maxCoeff()))
-    in.Fail(key, "not symmetric");
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
-  const double tolerance = 1e-9 + 1e-6 * moments.cwiseAbs().maxCoeff();
-  if (moments[0] < -tolerance)
-    in.Fail(key, "no body has a negative principal moment (" + ToText(moments[0]) + " kg·m²)");
-  if (!only_about_z && moments[2] > moments[0] + moments[1] + tolerance)
-    in.Fail(key, "no body has these principal moments: " + ToText(moments[2]) + " > " + ToText(moments[0]) +
-                     " + " + ToText(moments[1]) + " kg·m² (triangle inequality)");
-}
-
-/// The first link only turns about its own fixed z axis: one moment is all that can be known or matter.
-bool IsOnlyAboutZ(const InertialBody& body) {
-  Eigen::Matrix3d rest = body.inertia_com_kgm2;
-  rest(2, 2) = 0.0;
-  return body.mass_kg == 0.0 && rest.isZero();
-}
-
-InertialBody ReadBody(Reader& in, const char* inertia_key, bool first_link, const Bound& mass_bound) {
-  InertialBody body;
-  if (!in.Has("mass")) in.Fail("mass", "missing; kg");
-  in.Number("mass", body.mass_kg, mass_bound, "");
-  in.Vector("com", body.com_m, kLength, "");
-  const std::vector<Numbers> rows = Rows(in, inertia_key, 3);
-  if (!rows.empty()) {
-    if (rows.size() != 3) in.Fail(inertia_key, "expected three rows of three numbers in kg·m²");
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        body.inertia_com_kgm2(r, c) = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-    if (body.inertia_com_kgm2.cwiseAbs().maxCoeff() > kMoment.hi)
-      in.Fail(inertia_key, "out of range; allowed: " + ToText(kMoment));
-    CheckInertia(in, inertia_key, body.inertia_com_kgm2, first_link && IsOnlyAboutZ(body));
-  }
-  return body;
-}
-
-template <typename Each>
-void ForEachTable(Reader& in, const char* key, Each each) {
-  toml::node* node = in.Get(key);
-  if (node == nullptr) return;
-  toml::array* array = node->as_array();
-  if (array == nullptr) in.Fail(key, "expected a list of tables");
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string name = std::string(key) + "[" + std::to_string(i) + "]";
-    toml::table* table = (*array)[i].as_table();
-    if (table == nullptr) in.document().Fail(&(*array)[i], in.KeyName(name), "expected a table");
-    Reader item(in.document(), table, in.KeyName(name));
-    each(item, i);
-    item.RefuseUnknown();
-  }
-}
-
-void ReadBodies(Reader& in, ArmDescription& arm) {
-  ForEachTable(in, "bodies", [&](Reader& item, std::size_t i) {
-    item.Get("frame");
-    arm.bodies.push_back(ReadBody(item, "inertia_about_com", i == 0, kMass));
-  });
-  if (arm.bodies.size() != arm.dh.size())
-    in.Fail("bodies", std::to_string(arm.bodies.size()) + " bodies for " + std::to_string(arm.dh.size()) +
-                          " joints; one per link");
-  double total = 0.0;
-  for (const InertialBody& body : arm.bodies) total += body.mass_kg;
-  if (total <= 0.0) in.Fail("bodies", "the arm has no mass; allowed: more than 0 kg in all");
-}
-
-std::vector<std::string> ReadNames(Reader& in, const char* key) {
-  toml::node* node = in.Get(key);
-  std::vector<std::string> names;
-  if (node == nullptr) return names;
-  const toml::array* array = node->as_array();
-  if (array == nullptr) in.Fail(key, "expected a list of names");
-  for (const toml::node& item : *array) {
-    const auto name = item.value_exact<std::string>();
-    if (!name) in.Fail(key, "expected a list of names");
-    names.push_back(*name);
-  }
-  return names;
-}
-
-/// What one unit of mass adds to a link when the file gives no shapes: its own com and inertia, scaled.
-ParameterShape MassShape(const ArmDescription& arm, int link) {
-  const InertialBody& body = arm.bodies[static_cast<std::size_t>(link)];
-  return {link, {1.0, body.com_m, body.inertia_com_kgm2 / body.mass_kg}};
-}
-
-/// Without a list of parameters every link's mass is one.
-void DefaultParameters(ArmDescription& arm) {
-  for (int i = 0; i < arm.dof(); ++i) {
-    const double mass = arm.bodies[static_cast<std::size_t>(i)].mass_kg;
-    if (mass > 0.0)
-      arm.parameters.push_back(
-          {"m" + std::to_string(i + 1), mass, mass, 0.0, 2.0 * mass, {MassShape(arm, i)}, {}});
-  }
-}
-
-void ReadParameters(Reader& in, ArmDescription& arm) {
-  constexpr Bound kParameter{"unit of the parameter", -1e3, 1e3};
-  const std::vector<std::string> names = ReadNames(in, "param_names");
-  Numbers truth, nominal, lo, hi;
-  in.Numbers("p_true", truth, kParameter, "");
-  in.Numbers("p_nom", nominal, kParameter, "");
-  in.Numbers("p_lo", lo, kParameter, "");
-  in.Numbers("p_hi", hi, kParameter, "");
-  if (names.empty()) {
-    if (in.Has("p_true") || in.Has("param_shapes"))
-      in.Fail("param_names", "missing; one name per entry of p_true");
-    in.Get("param_shapes");
-    DefaultParameters(arm);
-    return;
-  }
-  if (names.size() > static_cast<std::size_t>(kMaxParameters))
-    in.Fail("param_names",
-            std::to_string(names.size()) + " parameters; allowed: 0 ... " + std::to_string(kMaxParameters));
-  if (nominal.empty()) nominal = truth;
-  if (lo.empty()) lo.assign(truth.size(), 0.0);
-  if (hi.empty())
-    std::transform(truth.begin(), truth.end(), std::back_inserter(hi), [](double p) { return 2.0 * p; });
-  for (const auto& [key, list] :
-       {std::pair{"p_true", &truth}, {"p_nom", &nominal}, {"p_lo", &lo}, {"p_hi", &hi}})
-    if (list->size() != names.size())
-      in.Fail(key, std::to_string(list->size()) + " numbers for " + std::to_string(names.size()) + " names");
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (lo[k] > hi[k])
-      in.Fail("p_lo", names[k] + ": the box is empty, " + ToText(lo[k]) + " > " + ToText(hi[k]));
-    if (nominal[k] < lo[k] || nominal[k] > hi[k])
-      in.Fail("p_nom", names[k] + ": start " + ToText(nominal[k]) + " lies outside the box " + ToText(lo[k]) +
-                           " ... " + ToText(hi[k]));
-    StructuralParameter parameter;
-    parameter.name = names[k];
-    parameter.truth = truth[k];
-    parameter.nominal = nominal[k];
-    parameter.lo = lo[k];
-    parameter.hi = hi[k];
-    arm.parameters.push_back(parameter);
-  }
-  if (!in.Has("param_shapes")) {
-    // Named parameters without shapes are the links' masses, in order.
-    if (names.size() != arm.bodies.size())
-      in.Fail("param_shapes", "missing; without it one parameter per link, its mass");
-    for (int i = 0; i < arm.dof(); ++i) {
-      if (arm.bodies[static_cast<std::size_t>(i)].mass_kg <= 0.0)
-        in.Fail("param_shapes", "missing, and body " + std::to_string(i + 1) + " has no mass to scale");
-      arm.parameters[static_cast<std::size_t>(i)].shapes.push_back(MassShape(arm, i));
-    }
-  }
-  ForEachTable(in, "param_shapes", [&](Reader& item, std::size_t) {
-    std::string name;
-    item.Text("param", name, "");
-    const auto found = std::find_if(arm.parameters.begin(), arm.parameters.end(),
-                                    [&](const auto& p) { return p.name == name; });
-    if (found == arm.parameters.end()) item.Fail("param", "'" + name + "' is not in param_names");
-    if (item.Has("viscous_weights")) {
-      item.Numbers("viscous_weights", found->viscous_weights, {"N·m·s/rad", 0.0, 1e4}, "");
-      if (found->viscous_weights.size() != arm.dh.size())
-        item.Fail("viscous_weights", "expected one number per joint");
-      return;
-    }
-    ParameterShape shape;
-    int body = 0;
-    if (!item.Has("body")) item.Fail("body", "missing; 1 ... " + std::to_string(arm.dof()));
-    item.Integer("body", body, {"1", 1.0, static_cast<double>(arm.dof())}, "");
-    shape.body = body - 1;
-    shape.unit = ReadBody(item, "inertia_com", body == 1, kMass);
-    found->shapes.push_back(shape);
-  });
 }
 
 /// Zero, one or n numbers for n joints.
