@@ -9,7 +9,8 @@
 #include "firmware/telemetry/histogram.h"
 
 int main(int argc, char** argv) {
-  const int seconds = argc > 1 ? std::atoi(argv[1]) : 10, core = argc > 2 ? std::atoi(argv[2]) : -1;
+  const auto number = [](const char* text) { return static_cast<int>(std::strtol(text, nullptr, 10)); };
+  const int seconds = argc > 1 ? number(argv[1]) : 10, core = argc > 2 ? number(argv[2]) : -1;
   static reed::telemetry::Histogram histogram;
   const reed::rt::RealtimeScope scope({80, core, true});
   for (const std::string& line : scope.report().Complaints()) std::fprintf(stderr, "%s\n", line.c_str());

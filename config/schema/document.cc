@@ -59,9 +59,10 @@ toml::array ToTomlArray(const nlohmann::json& json) {
 
 toml::table ToTomlTable(const nlohmann::json& json) {
   toml::table out;
-  for (const auto& [key, item] : json.items())
-    ConvertValue(item,
-                 [&](auto&& value) { out.insert_or_assign(key, std::forward<decltype(value)>(value)); });
+  for (const auto& item : json.items())
+    ConvertValue(item.value(), [&](auto&& value) {
+      out.insert_or_assign(item.key(), std::forward<decltype(value)>(value));
+    });
   return out;
 }
 
