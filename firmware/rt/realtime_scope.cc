@@ -38,7 +38,7 @@ void CheckOptions(const RealtimeOptions& options) {
   if (options.cpu < -1 || options.cpu >= cores) {
     throw std::invalid_argument("timing.cpu = " + std::to_string(options.cpu) +
                                 ": allowed are the cores 0 to " + std::to_string(cores - 1) +
-                                " of this machine, or -1 for none");
+                                " of this machine, or -1 to leave the choice");
   }
   if (options.priority < 0 || options.priority > 99) {
     throw std::invalid_argument("timing.priority = " + std::to_string(options.priority) +

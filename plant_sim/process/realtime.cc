@@ -2,8 +2,10 @@
 
 #include <sched.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <stdexcept>
 #include <system_error>
 
 #include "config/schema/cores.h"
@@ -14,9 +16,19 @@ namespace {
 /// What the last system call complained of.
 std::string ErrnoText() { return std::error_code(errno, std::generic_category()).message(); }
 
+void CheckCore(const TimingConfig& timing) {
+  const long cores = sysconf(_SC_NPROCESSORS_CONF);
+  const int core = PlantCore(timing);
+  if (core < cores) return;
+  throw std::invalid_argument((timing.plant_cpu >= 0 ? "timing.plant_cpu = " : "timing.cpu = ") +
+                              std::to_string(core) + ": allowed are the cores 0 to " +
+                              std::to_string(cores - 1) + " of this machine, or -1 to leave the choice");
+}
+
 }  // namespace
 
 std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
+  CheckCore(timing);
   std::vector<std::string> refused;
   // Every page now and later: a page fault in a step costs more than the step (mlockall(2), notes on real
   // time).
@@ -39,8 +51,9 @@ std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
   CPU_ZERO(&cores);
   CPU_SET(static_cast<std::size_t>(core), &cores);
   if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
-    refused.push_back("core " + std::to_string(core) + " not granted (" + ErrnoText() +
-                      "); fix: timing.plant_cpu must be a core of this machine");
+    refused.push_back(
+        "core " + std::to_string(core) + " not granted (" + ErrnoText() +
+        "); fix: a core that is online and in this container's cpuset, or timing.plant_cpu = -1");
   }
   return refused;
 }

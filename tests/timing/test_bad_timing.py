@@ -6,7 +6,7 @@ import pytest
 
 from reed_tools.paths import BUILD
 
-FIRMWARE = str(BUILD / "bin" / "reed_firmware")
+FIRMWARE, PLANT = (str(BUILD / "bin" / name) for name in ("reed_firmware", "reed_plant_sim"))
 BUS = "udp:239.74.163.2:46213"
 # What is set, and words of the line.
 REFUSED = {
@@ -25,6 +25,14 @@ REFUSED = {
     "an unknown policy": (["timing.overrun=pray"], ["timing.overrun", "keep_grid"]),
     "an unknown action": (["timing.phase_action=pray"], ["timing.phase_action", "degrade"]),
 }
+
+
+@pytest.mark.parametrize("setting", ["timing.plant_cpu=1000", "timing.cpu=1000"])
+def test_a_core_that_does_not_exist_is_refused_by_the_plant_too(setting):
+    done = subprocess.run([PLANT, "--config", "press_known", "--bus", BUS, "--no-lcm", "--clock", "wall", "--set", setting],
+                          capture_output=True, text=True, timeout=30)
+    assert done.returncode == 2, done.stderr
+    assert len(done.stderr.splitlines()) == 1 and setting.replace("=", " = ") in done.stderr and "0 to " in done.stderr
 
 
 @pytest.mark.parametrize("what", REFUSED)

@@ -1,5 +1,5 @@
 """Stands in for reed_firmware and reed_plant_sim: same options, same exit statuses, a synthetic log. What it does comes from
-REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), refuse, die or endless."""
+REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), complain, refuse, die or endless."""
 
 import argparse
 import os
@@ -27,6 +27,8 @@ def main() -> int:
     if behaviour == "refuse":
         print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
         return 2
+    if behaviour == "complain":
+        print(f"{Path(sys.argv[0]).name}: SCHED_FIFO 80 not granted; fix: rtprio 80", file=sys.stderr)
     if name == "firmware":
         hear_the_plant(Path(options.log).parent)
     write_own_log(name, Path(options.log), options.clock)

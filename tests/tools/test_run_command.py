@@ -96,6 +96,12 @@ def test_a_program_that_refuses_its_options_is_status_2(reed, tmp_path, who):
     assert "at most 8 are allowed" in one_line(done, 2)
 
 
+@pytest.mark.parametrize("who, program", [("FIRMWARE", "reed_firmware"), ("PLANT", "reed_plant_sim")])
+def test_what_the_machine_refused_is_told_with_its_fix_beside_the_result(reed, tmp_path, who, program):
+    done = reed("run", "--bus", BUS, "--out", tmp_path, **{f"REED_FAKE_{who}": "complain"})
+    assert f"{program}: SCHED_FIFO 80 not granted; fix: rtprio 80" in done.stdout.splitlines()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp_path, number):
     process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")

@@ -59,13 +59,19 @@ def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.P
                                 start_new_session=True, preexec_fn=die_with_parent)
 
 
-def last_words(plan: Plan, name: str) -> str:
-    """What a program said last, "" if nothing. Its complaints begin with its name; what it did is printed in another
-    stream and may come after them."""
+def said(plan: Plan, name: str) -> list[str]:
     path = plan.output(name)
-    lines = path.read_text(errors="replace").strip().splitlines() if path.exists() else []
-    complaints = [line for line in lines if line.startswith("reed_")]
-    return (complaints or lines or [""])[-1]
+    return path.read_text(errors="replace").strip().splitlines() if path.exists() else []
+
+
+def complaints(plan: Plan, name: str) -> list[str]:
+    """What a program had to say against the machine or the run: the lines that begin with its own name."""
+    return [line for line in said(plan, name) if line.startswith("reed_")]
+
+
+def last_words(plan: Plan, name: str) -> str:
+    """What a program said last, "" if nothing. What it did is printed in another stream and may come after its complaints."""
+    return (complaints(plan, name) or said(plan, name) or [""])[-1]
 
 
 def stop(process: subprocess.Popen) -> int:

@@ -80,8 +80,9 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     summary = evaluate(folder)
     if summary["cycles"]:
         result_table.show(summary)
-    if outcome.firmware_status == STOPPED:
-        print(last_line(plan, "firmware"))
+    for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
+        if not (complaint and line in complaint):
+            print(line)  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")
