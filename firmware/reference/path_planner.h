@@ -27,6 +27,7 @@ class PathPlanner {
 
  private:
   static constexpr double kSpacing = 0.005;  // s; a 5 Hz sinusoid of 1 rad is met to 1e-9 rad
+  static constexpr double kBeyond = 3.0 * kSpacing;
   static constexpr double kTwoPi = 6.283185307179586;
 
   /// Angles at every knot, leg after leg.
@@ -37,7 +38,11 @@ class PathPlanner {
     for (const ReferenceLeg& leg : scenario_.reference.legs) {
       const model::Vec<N> q_start = q;
       const model::Kinematics<N> kin = pose_of_(q_start);
-      while (t + kSpacing <= leg_start + leg.duration_s + 1e-9 && t < scenario_.duration_s + kSpacing) {
+      // A leg that moves when the run ends is followed a little further: the last knots' derivatives need it.
+      const double leg_end = leg_start + leg.duration_s;
+      const double sampled_to =
+          leg_end + 1e-9 < scenario_.duration_s ? leg_end : scenario_.duration_s + kBeyond;
+      while (t + kSpacing <= sampled_to + 1e-9) {
         t = kSpacing * static_cast<double>(out.size());
         q = AtLegTime(leg, t - leg_start, q_start, kin, q);
         out.push_back(q);

@@ -1,6 +1,8 @@
 // The legs of a scenario as paths of three arms: lines, slides, joints without a jump; refusals by name.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/firmware/reference_bench.h"
 
 namespace reed::reference {
@@ -67,6 +69,20 @@ TEST(PathPlanner, JointLegsFollowEachOtherWithoutAJump) {
     EXPECT_LT((0.5e-4 * (at.theta_d_dot + before.theta_d_dot) - (at.theta_d - before.theta_d)).norm(), 1e-8)
         << t;
     before = at;
+  }
+}
+
+TEST(PathPlanner, ALegThatStillMovesWhenTheRunEndsDoesSoSmoothlyToTheLastCycle) {
+  Bench<5> bench(test::ArmA5());
+  ReferenceLeg swing = Leg(ReferenceLeg::Kind::kSine, bench.scenario.duration_s);
+  swing.amplitude_rad.assign(5, 0.1);
+  swing.frequency_hz = 0.6;
+  const JointPath<5> path = bench.Plan(PoseA5(), {swing});
+  const double w = 2.0 * 3.14159265358979 * swing.frequency_hz;
+  for (double t = bench.scenario.duration_s - 0.05; t <= bench.scenario.duration_s + 1e-9; t += 1e-3) {
+    const control::Reference<5> at = path.At(t);
+    EXPECT_NEAR(at.theta_d_dot[0], 0.1 * w * std::cos(w * t), 1e-7) << t;
+    EXPECT_NEAR(at.theta_d_ddot[0], -0.1 * w * w * std::sin(w * t), 1e-5) << t;
   }
 }
 
