@@ -32,13 +32,17 @@ class NormalForce {
   }
   bool settled() const noexcept { return zero_.complete(); }
 
-  /// The frames are back: a new zero from the first of them, once all that the source waits for have come and
-  /// the arm was free throughout. The wait behind the last reading is longer than the rise of a contact: an
-  /// arm that met the wall meanwhile keeps its old zero, else it would take the wall's force for none.
+  /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the
+  /// source waits for. That wait is longer than the rise of a contact: an arm that met the wall meanwhile
+  /// keeps its old zero, else it would take the wall's force for none.
   void Retare(const Eigen::Vector3d& force, int fresh_in_row, bool free) noexcept {
-    if (fresh_in_row == 1) returned_ = {};
-    if (free) returned_.Take(force);
-    if (free && returned_.complete() && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
+    if (fresh_in_row == 1) {
+      returned_ = {};
+      stayed_free_ = true;
+    }
+    stayed_free_ = stayed_free_ && free;
+    returned_.Take(force);
+    if (stayed_free_ && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
   }
 
   /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N.
@@ -67,6 +71,7 @@ class NormalForce {
   Eigen::Vector3d normal_;
   double tare_share_, seek_share_, forget_;
   ForceTare zero_, returned_;
+  bool stayed_free_ = false;
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;
 };
