@@ -66,7 +66,8 @@ class Supervisor {
       fresh_in_row_ = 0;
       return Event::kBraked;
     }
-    if (mode_ == Mode::kOff && fresh_in_row_ >= kFreshInRow && !seen.stop) return Event::kEnable;
+    if (mode_ == Mode::kOff && fresh_in_row_ >= kFreshInRow && !seen.stop && !seen.drives_braked)
+      return Event::kEnable;
     if (mode_ == Mode::kReady && enabling_ && seen.drives_enabled) return Event::kStart;
     return Event::kNone;
   }

@@ -132,6 +132,16 @@ TEST(Supervisor, DrivesThatBrakedBeforeTheyWereEnabledAreAskedForOffAndThenAnew)
   }
 }
 
+TEST(Supervisor, DrivesThatStayBrakedAreWaitedForAndNotAskedAgainAndAgain) {
+  Walk walk(true);
+  walk.Cycles(Supervisor::kFreshInRow);
+  walk.seen.drives_braked = true;
+  int events = 0;
+  for (int i = 0; i < 1000; ++i) events += walk.Cycle() != Event::kNone ? 1 : 0;
+  EXPECT_EQ(events, 1);
+  EXPECT_EQ(walk.supervisor.Request(), DriveRequest::kOff);
+}
+
 TEST(Supervisor, StopClosesTheBrakesAndTheWishHasToBeSaidAgain) {
   Walk walk(true);
   walk.Cycles(100);
