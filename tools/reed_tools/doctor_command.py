@@ -15,7 +15,7 @@ from reed_tools.paths import ROOT
 from reed_tools.result_table import console, grid
 
 MCL_CURRENT = 1
-LIMITS_FIX = "echo '@realtime - rtprio 98\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
+LIMITS_FIX = "echo '@realtime - rtprio 99\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
              "sudo groupadd -f realtime; sudo usermod -aG realtime $USER; log in again"
 
 
@@ -68,8 +68,8 @@ def telemetry_url() -> Finding:
 
 
 def scheduler() -> Finding:
-    good = subprocess.run(["chrt", "-f", "80", "true"], capture_output=True).returncode == 0
-    return Finding("SCHED_FIFO priority 80", good, "granted" if good else "refused", "" if good else LIMITS_FIX)
+    good = subprocess.run(["chrt", "-f", "81", "true"], capture_output=True).returncode == 0
+    return Finding("SCHED_FIFO priority 81", good, "granted" if good else "refused", "" if good else LIMITS_FIX)
 
 
 def memory_lock() -> Finding:
@@ -140,6 +140,7 @@ def run(arguments) -> int:
     for item in found:
         if item.fix:
             out.print(f"[bold]{item.subject}[/]: {escape(item.fix)}", soft_wrap=True, highlight=False)
-    usable = [item.subject for item in found if item.good and item.subject in (bus_choice.VCAN, "loopback multicast")]
-    out.print(f"run works here over: {', '.join(usable) or 'nothing yet, see above'}", highlight=False)
+    buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
+    usable = [buses[item.subject] for item in found if item.good and item.subject in buses]
+    out.print(f"run works here with --bus {' or '.join(usable)}" if usable else "run works here over no bus yet, see above", highlight=False)
     return 0
