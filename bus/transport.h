@@ -44,4 +44,9 @@ class Transport {
   virtual std::string interface() const = 0;
 };
 
+/// Whether no real drive can be at its other end. RT: set-up only.
+inline bool OnlySimulated(const Transport& bus) {
+  return bus.kind() != "socketcan" || bus.interface().starts_with("vcan");
+}
+
 }  // namespace reed::bus

@@ -57,16 +57,21 @@ class WallLoop {
   }
 
   std::int64_t NextDeadline(std::int64_t deadline_ns, std::int64_t start_ns, std::int64_t end_ns) noexcept {
+    // A mark says that the arm's clock stood still between the last answer and this one: what the last cycle
+    // missed behind its answer and this one before it was nothing to the arm, and the row goes on without it.
+    const bool stood = stepper_.snapshot().timing.clock_stood;
+    const int row = stood ? row_before_ : state_.missed_in_row;
     const rt::OverrunDecision next = rt::AfterCycle(options_.overrun, deadline_ns, period_ns_, start_ns,
-                                                    end_ns, state_.missed_in_row, options_.max_missed_in_row);
+                                                    end_ns, row, options_.max_missed_in_row);
     result_.missed += next.next.missed;
     if (next.next.missed > 0) {
       ++result_.overruns;
       stepper_.NoteTime(protect::Reason::kStall, static_cast<double>(next.next.missed), phases_.history());
     }
-    const bool served = stepper_.snapshot().timing.clock_stood;  // nothing was missed by the arm's own clock
-    state_.missed_in_row = served ? 0 : next.missed_in_row;
-    state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop && !served;
+    const bool ended = next.missed_in_row == 0;
+    row_before_ = ended ? 0 : row;
+    state_.missed_in_row = stood && !ended ? row : next.missed_in_row;
+    state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop && !stood;
     state_.hold = state_.hold || next.action == rt::CycleAction::kHold;
     return next.next.deadline_ns;
   }
@@ -77,6 +82,7 @@ class WallLoop {
   Stepper stepper_;
   rt::PhaseMonitor phases_;
   LoopState state_;
+  int row_before_ = 0;  // of missed points, without those of the last cycle
   LoopResult result_;
 };
 

@@ -18,7 +18,8 @@ namespace reed {
 template <int N>
 class ArmBus {
  public:
-  explicit ArmBus(bus::Transport& transport) noexcept : transport_(transport) {
+  explicit ArmBus(bus::Transport& transport)
+      : transport_(transport), simulated_(bus::OnlySimulated(transport)) {
     measurement_.age.fill(Measurement<N>::kNever);
   }
 
@@ -100,7 +101,7 @@ class ArmBus {
       return;
     }
     const bus::JointStateMessage& state = decoded.joint_state;
-    measurement_.clock_stood = measurement_.clock_stood || state.clock_stood;
+    measurement_.clock_stood = measurement_.clock_stood || (simulated_ && state.clock_stood);
     const int late =
         static_cast<int>((cycle_ - state.cycle_low4) & 0xFu);  // cycles since the SYNC it answers
     if (late == 0) {
@@ -141,6 +142,7 @@ class ArmBus {
   }
 
   bus::Transport& transport_;
+  bool simulated_;  // a real drive's clock never stands still, whatever it says
   bus::Encoder encoder_;
   bus::Decoder decoder_;
   Measurement<N> measurement_;

@@ -1,6 +1,7 @@
 // What the loop does after a cycle that ran past its own period. Pure functions of time. Units: ns. RT: safe.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "firmware/rt/grid.h"
@@ -23,6 +24,9 @@ struct OverrunDecision {
   int missed_in_row;  // to be handed back at the next call
 };
 
+/// Rows are counted up to here: a stall of eleven days at 1 kHz.
+inline constexpr int kLongestRow = 1'000'000'000;
+
 /// @param previous_ns        the grid point of the cycle that ended
 /// @param start_ns, now_ns   when it began and ended
 /// @param missed_in_row      what the last decision returned, 0 at the start
@@ -34,10 +38,8 @@ constexpr OverrunDecision AfterCycle(OverrunPolicy policy, std::int64_t previous
   if (next.missed == 0) return {next, CycleAction::kRun, 0};
 
   const std::int64_t row = missed_in_row + next.missed;
-  if (policy == OverrunPolicy::kStop || row > max_missed_in_row) {
-    const std::int64_t one_too_many = std::int64_t{max_missed_in_row} + 1;
-    return {next, CycleAction::kStop, static_cast<int>(row < one_too_many ? row : one_too_many)};
-  }
+  if (policy == OverrunPolicy::kStop || row > max_missed_in_row)
+    return {next, CycleAction::kStop, static_cast<int>(std::min(row, std::int64_t{kLongestRow}))};
   if (policy == OverrunPolicy::kSkip) next = {next.deadline_ns + period_ns, next.missed + 1};
   const CycleAction action = policy == OverrunPolicy::kHold ? CycleAction::kHold : CycleAction::kRun;
   // A cycle that began late but took no longer than a period has served the arm: it ends the row. So the

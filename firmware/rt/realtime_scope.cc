@@ -131,9 +131,8 @@ void RealtimeScope::Raise(int priority) {
   }
   report_.fifo = Refused("SCHED_FIFO " + std::to_string(priority) + " refused: " + ErrnoText() +
                              " (rtprio limit " + HardLimit(RLIMIT_RTPRIO) + ")",
-                         "write \"* - rtprio " + std::to_string(priority) +
-                             "\" to /etc/security/limits.d/90-reed.conf and log in again, "
-                             "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
+                         "write \"* - rtprio 99\" to /etc/security/limits.d/90-reed.conf and log in again, "
+                         "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
 }
 
 }  // namespace reed::rt

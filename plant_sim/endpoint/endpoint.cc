@@ -44,7 +44,7 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
 }
 
 void Endpoint::Sample(std::uint32_t cycle, const Standstill& standstill) {
-  port_.Answer(cycle, robot_.Measure(), standstill.since_answer);
+  port_.Answer(cycle, robot_.Measure(), standstill.clock_stood);
   PlantRecord truth = robot_.Snapshot();
   truth.stalls = standstill.stalls;
   truth.stood_s = standstill.stood_s;

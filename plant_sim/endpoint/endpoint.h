@@ -15,7 +15,7 @@ namespace reed::plant {
 struct Standstill {
   std::int64_t stalls = 0;  // since start, as stood_s
   double stood_s = 0.0;
-  bool since_answer = false;  // one of them came after the last answer
+  bool clock_stood = false;  // for most of the time since the last answer
 };
 
 class Endpoint {

@@ -19,15 +19,10 @@ WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, 
       clock_(std::move(clock)),
       max_step_ns_(std::max<std::int64_t>(1, std::llround(scenario.plant.max_step_s * 1e9))) {}
 
-/// The silence of the controller is judged by what has arrived: if this process itself was kept from running
-/// while commands came in, real drives would have seen them in time.
 void WallEndpoint::Handle(std::span<const Incoming> incoming) {
-  const bool command_waits = std::any_of(incoming.begin(), incoming.end(), [](const Incoming& in) {
-    return in.kind == Incoming::Kind::kCommand;
-  });
   const std::int64_t now_ns = clock_.monotonic_ns();
   const std::int64_t arm_ns = ArmTime(now_ns);
-  if (syncs() > 0) CatchUp(arm_ns, command_waits);
+  if (syncs() > 0) CatchUp(arm_ns);
   for (const Incoming& in : incoming) {
     if (outcome() != Outcome::kRunning) return;
     if (in.kind == Incoming::Kind::kSync) {
@@ -43,8 +38,11 @@ void WallEndpoint::OnSync(const Incoming& sync, std::int64_t now_ns) {
   if (!Accept(sync, real_minus_monotonic_us_ + now_ns / 1000)) return;
   if (sync.new_controller) integrated_ns_ = ArmTime(clock_.monotonic_ns());
   cycle_ = sync.sync.cycle;
+  // Most of the time since the last answer: then the machine made the controller late, and not itself.
+  standstill_.clock_stood = 2 * (stood_ns_ - stood_at_answer_ns_) > now_ns - answered_ns_;
   Sample(cycle_, standstill_);
-  standstill_.since_answer = false;
+  answered_ns_ = now_ns;
+  stood_at_answer_ns_ = stood_ns_;
 }
 
 /// Read after `now_ns`: a stall between the two readings then holds the arm back, and never pushes it ahead.
@@ -56,7 +54,6 @@ std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
     const double stall_s = static_cast<double>(stall_ns) * 1e-9;
     ++standstill_.stalls;
     standstill_.stood_s += stall_s;
-    standstill_.since_answer = true;
     if (stall_ns >= kWorthALine_ns) {
       journal().Note(PlantEvent::kClockStood, robot().drives().state(), stall_s,
                      "the machine was away for %.1f ms at %.3f s; the arm's clock stood still", 1e3 * stall_s,
@@ -72,7 +69,7 @@ void WallEndpoint::OnCommand(const bus::CommandMessage& command) {
   if (!recent || !mutable_robot().Command(command)) CountRefusedCommand();
 }
 
-void WallEndpoint::CatchUp(std::int64_t now_ns, bool command_waits) {
+void WallEndpoint::CatchUp(std::int64_t now_ns) {
   if (const std::int64_t behind_ns = now_ns - integrated_ns_; behind_ns > kMaxCatchUp_ns) {
     integrated_ns_ = now_ns - kMaxCatchUp_ns;
     const double lost_s = static_cast<double>(behind_ns - kMaxCatchUp_ns) * 1e-9;
@@ -83,7 +80,7 @@ void WallEndpoint::CatchUp(std::int64_t now_ns, bool command_waits) {
     const std::int64_t step_ns = std::min(now_ns - integrated_ns_, max_step_ns_);
     const double step_s = static_cast<double>(step_ns) * 1e-9;
     mutable_robot().Advance(step_s);
-    if (!command_waits) mutable_robot().Silence(step_s / period_s_);
+    mutable_robot().Silence(step_s / period_s_);
     integrated_ns_ += step_ns;
     CheckHealth();
   }

@@ -38,12 +38,13 @@ class WallEndpoint final : public Endpoint {
   std::int64_t ArmTime(std::int64_t now_ns);
   void OnCommand(const bus::CommandMessage& command);
   /// Physics up to the arm's `now_ns` in steps of at most plant.max_step_s.
-  void CatchUp(std::int64_t now_ns, bool command_waits);
+  void CatchUp(std::int64_t now_ns);
 
   WallClock clock_;
   std::int64_t max_step_ns_;
-  std::int64_t integrated_ns_ = 0;  // instant of the arm's state on its own clock
-  std::int64_t stood_ns_ = 0;       // clock_.stood_ns() as known so far
+  std::int64_t integrated_ns_ = 0;                         // instant of the arm's state on its own clock
+  std::int64_t stood_ns_ = 0;                              // clock_.stood_ns() as known so far
+  std::int64_t answered_ns_ = 0, stood_at_answer_ns_ = 0;  // both clocks at the last answer
   Standstill standstill_;
   std::int64_t real_minus_monotonic_us_ = 0;  // one reading of the clock serves both times of a cycle
   std::uint32_t cycle_ = 0;

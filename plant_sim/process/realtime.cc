@@ -43,8 +43,7 @@ std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
   param.sched_priority = timing.priority;
   if (sched_setscheduler(0, SCHED_FIFO, &param) != 0) {
     refused.push_back("SCHED_FIFO " + std::to_string(param.sched_priority) + " not granted (" + ErrnoText() +
-                      "); fix: run as root, or rtprio " + std::to_string(param.sched_priority) +
-                      " in /etc/security/limits.conf");
+                      "); fix: run as root, or rtprio 99 in /etc/security/limits.conf");
   }
   const int core = PlantCore(timing);
   cpu_set_t cores;

@@ -8,9 +8,9 @@
 
 namespace reed::plant {
 
-/// Asks for SCHED_FIFO with the controller's priority, for its core (config/schema/cores.h), and for locked memory, for the
-/// calling thread. Returns one line, with the fix, for each thing that was not granted. Throws
-/// std::invalid_argument for a core that does not exist: that is a configuration error.
+/// Asks for SCHED_FIFO with the controller's priority, for its core (config/schema/cores.h), and for locked
+/// memory, for the calling thread. Returns one line, with the fix, for each thing that was not granted.
+/// Throws std::invalid_argument for a core that does not exist: that is a configuration error.
 std::vector<std::string> AskForRealtime(const TimingConfig& timing);
 
 }  // namespace reed::plant

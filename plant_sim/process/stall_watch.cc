@@ -1,9 +1,12 @@
 #include "plant_sim/process/stall_watch.h"
 
 #include <sched.h>
-#include <sys/prctl.h>
 
+#include <cerrno>
 #include <ctime>
+#include <future>
+#include <system_error>
+#include <utility>
 
 #include "bus/monotonic.h"
 
@@ -16,6 +19,22 @@ std::int64_t TimerResolution_ns() {
   return resolution.tv_sec * bus::kNsPerSecond + resolution.tv_nsec;
 }
 
+/// Core and priority for this thread; why they are refused, or "".
+std::string Ask(int core, int priority) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<std::size_t>(core), &cores);
+  sched_param param{};
+  param.sched_priority = priority;
+  if (sched_setaffinity(0, sizeof cores, &cores) == 0 && sched_setscheduler(0, SCHED_FIFO, &param) == 0) {
+    return "";
+  }
+  return "stalls of the machine hurt the arm: SCHED_FIFO " + std::to_string(priority) + " on core " +
+         std::to_string(core) + " not granted to the thread that would tell them (" +
+         std::error_code(errno, std::generic_category()).message() +
+         "); fix: run as root, or rtprio 99 in /etc/security/limits.conf";
+}
+
 }  // namespace
 
 std::string StallWatch::Start(int core, int priority) {
@@ -23,19 +42,14 @@ std::string StallWatch::Start(int core, int priority) {
     return "stalls of the machine hurt the arm, its timers are too coarse to tell them (" +
            std::to_string(TimerResolution_ns() / 1000) + " us); fix: a kernel with CONFIG_HIGH_RES_TIMERS";
   }
-  thread_ = std::thread([this, core, priority] {
-    // What is refused here is refused to the program itself, which says so.
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    CPU_SET(static_cast<std::size_t>(core), &cores);
-    sched_setaffinity(0, sizeof cores, &cores);
-    sched_param param{};
-    param.sched_priority = priority;
-    sched_setscheduler(0, SCHED_FIFO, &param);
-    prctl(PR_SET_TIMERSLACK, 1UL);
-    Watch();
+  std::promise<std::string> asked;
+  std::future<std::string> answer = asked.get_future();
+  thread_ = std::thread([this, core, priority, asked = std::move(asked)]() mutable {
+    const std::string refused = Ask(core, priority);
+    asked.set_value(refused);
+    if (refused.empty()) Watch();
   });
-  return "";
+  return answer.get();
 }
 
 StallWatch::~StallWatch() {

@@ -1,4 +1,6 @@
 // The arm as seen through frames: which values are used and how old they are.
+#include <tuple>
+
 #include "tests/firmware/arm_bus_rig.h"
 
 namespace reed {
@@ -127,6 +129,27 @@ TEST_F(ArmBusTest, AWrenchThatIsAlwaysOneCycleLateIsUsedWithAgeOne) {
     EXPECT_TRUE(Receive());
     if (k > 1) {
       EXPECT_EQ(seen().wrench_age, 1) << k;
+    }
+  }
+}
+
+TEST_F(ArmBusTest, AClockThatStoodStillIsBelievedOfASimulatedArmOnly) {
+  for (const auto& [kind, interface, believed] : {std::tuple{"udp", "239.74.163.2:43113", true},
+                                                  {"socketcan", "vcan0", true},
+                                                  {"socketcan", "can0", false}}) {
+    wire_.controller.kind_name = kind;
+    wire_.controller.interface_name = interface;
+    ArmBus<kN> bus(wire_.controller);
+    bus::Encoder peer;
+    for (const bool stood : {true, false}) {
+      wire_.controller.inbox.clear();
+      bus.SendSync(stood ? 7 : 8, tap_);
+      bus::JointStateMessage state{0.1, 0.0, 0.0, bus::DriveState::kReady,
+                                   static_cast<std::uint8_t>(stood ? 7 : 8)};
+      state.clock_stood = stood;
+      Put(peer.JointState(0, state));
+      bus.Receive(0, tap_);
+      EXPECT_EQ(bus.measurement().clock_stood, stood && believed) << kind << " " << interface;
     }
   }
 }

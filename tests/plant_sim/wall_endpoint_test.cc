@@ -95,13 +95,14 @@ TEST_F(Wall, BrakesCloseAfter20MsOfSilence) {
   EXPECT_EQ(state(), DriveState::kBraked);
 }
 
-TEST_F(Wall, AStalledPlantWithACommandInItsQueueDoesNotBlameTheController) {
+TEST_F(Wall, ACommandThatComesTooLateFindsTheBrakesClosed) {
   Enable();
-  controller_.Sync(20);
-  controller_.Command(20, DriveRequest::kEnable, 1.0);
-  At(40 * kMs);
-  EXPECT_EQ(state(), DriveState::kEnabled);
-  EXPECT_NEAR(endpoint_->robot().time_s(), 40e-3, 1e-12) << "the arm has moved on meanwhile";
+  controller_.Sync(2);
+  At(2 * kMs);
+  controller_.Command(2, DriveRequest::kEnable, kTau_Nm);  // the controller has computed for 30 ms
+  At(32 * kMs);
+  EXPECT_EQ(state(), DriveState::kBraked);
+  EXPECT_EQ(endpoint_->robot().drives().torque_Nm()[0], 0.0);
 }
 
 TEST_F(Wall, AStalledMachineWithASilentControllerBrakesAtTheRightInstant) {
@@ -136,6 +137,16 @@ TEST_F(Wall, TheArmsClockStandsStillWhileTheMachineIsAway) {
   EXPECT_NEAR(endpoint_->robot().time_s(), 4e-3, 1e-12);
   At(121 * kMs + kMs / 2);
   EXPECT_EQ(state(), DriveState::kBraked) << "a silent controller still is one";
+}
+
+TEST_F(Wall, AStallThatTookTheSmallerPartOfALateCycleExcusesNobody) {
+  Enable();
+  controller_.Take();
+  stood_ns_ = 2 * kMs;
+  controller_.Sync(2);
+  At(6 * kMs);  // five after the last answer, two of them the machine's
+  for (const bus::JointStateMessage& joint : controller_.Take().joints) EXPECT_FALSE(joint.clock_stood);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 1) << "counted all the same";
 }
 
 TEST_F(Wall, ShortStallsAreCountedWithoutALine) {

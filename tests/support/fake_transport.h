@@ -33,14 +33,15 @@ class FakeTransport final : public bus::Transport {
 
   bool alive() const noexcept override { return alive_; }
   const bus::TransportCounters& counters() const noexcept override { return counters_; }
-  std::string kind() const override { return "fake"; }
-  std::string interface() const override { return "memory"; }
+  std::string kind() const override { return kind_name; }
+  std::string interface() const override { return interface_name; }
 
   void Cut() { alive_ = false; }
 
   std::deque<bus::Frame> inbox;  // sent by the peer, not yet received
   FakeTransport* peer = nullptr;
   int batches = 0;  // calls of Send
+  std::string kind_name = "fake", interface_name = "memory";
   std::int64_t last_deadline_ns = 0;
 
  private:

@@ -130,6 +130,38 @@ TEST(WallLoop, WhatWasMissedWhileTheArmsClockStoodStillIsCountedAndStopsNothing)
   EXPECT_EQ(rig.cycle.stopped_at, 10) << "the second stall is the loop's own";
 }
 
+TEST(WallLoop, AStallBehindTheAnswerIsTakenBackByTheNextOne) {
+  Rig rig(40);
+  rig.cycle.cost = [](std::uint32_t k) {
+    test::CycleCost cost;
+    cost.after = k == 5 ? 15 * kMs : k == 6 ? 8 * kMs : 0;
+    cost.clock_stood = k == 6;
+    return cost;
+  };
+  EXPECT_EQ(rig.Run().missed, 23);
+  EXPECT_EQ(rig.cycle.stopped_at, -1);
+}
+
+TEST(WallLoop, ASlowLoopStopsHoweverOftenTheMachineIsAway) {
+  Rig rig(100);
+  rig.cycle.cost = [](std::uint32_t k) {
+    test::CycleCost cost;
+    cost.after = k % 5 == 0 ? 6 * kMs : 2 * kMs;  // two missed in each cycle of its own, six in a stall
+    cost.clock_stood = k % 5 == 0;
+    return cost;
+  };
+  rig.Run();
+  EXPECT_GT(rig.cycle.stopped_at, 10);
+  EXPECT_LT(rig.cycle.stopped_at, 16) << "four of five cycles are its own";
+}
+
+TEST(WallLoop, TheTripsFigureIsTheWholeRow) {
+  Rig rig(40);
+  rig.StallAt5(60 * kMs);
+  rig.Run();
+  EXPECT_EQ(rig.cycle.seen[6].missed_in_row, 60);
+}
+
 TEST(WallLoop, SkipLeavesOneMorePointFree) {
   Rig rig(20);
   rig.options.overrun = rt::OverrunPolicy::kSkip;
