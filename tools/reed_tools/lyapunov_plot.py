@@ -19,5 +19,3 @@ def draw(top, bottom, book: Bookkeeping) -> None:
     bottom.plot(book.t, book.seen, color="#56B4E9", linewidth=0.8, label="differences of V")
     bottom.plot(book.t, book.predicted, color="#D55E00", linewidth=0.8, label="(44)" if book.force_known else "bound (46)")
     bottom.set_yscale("symlog", linthresh=1e-2)
-    for axis in (top, bottom):
-        axis.legend(fontsize=7, ncols=2, frameon=True, framealpha=0.85, edgecolor="none")

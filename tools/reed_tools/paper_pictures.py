@@ -188,6 +188,8 @@ def bookkeeping(results):
     for (top, bottom), result in zip(axes.T, results):
         book = lyapunov.of_run(result.signals, result.effective)
         lyapunov_plot.draw(top, bottom, book)
+        for axis in (top, bottom):
+            axis.legend(fontsize=7, ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
     axes[0][0].set_ylabel("V [J]")
     axes[1][0].set_ylabel("V̇ [W]")
     figure.subplots_adjust(wspace=0.17)

@@ -58,9 +58,16 @@ def set_margins(figure, right_in: float = 0.15, top_in: float = 0.3, **spaces) -
                            **{"hspace": 0.14, **spaces})
 
 
-def legend_right(figure, axis) -> None:
+def legend_right(figure, *axes) -> None:
     set_margins(figure, right_in=1.35)
-    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    for axis in axes:
+        axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def label_left(axis, text: str) -> None:
+    """At the same place in every panel, however long the numbers beside it are."""
+    axis.set_ylabel(text)
+    axis.yaxis.set_label_coords(-0.056, 0.5)
 
 
 def mark_switches(figure, signals: Signals | None, name: str) -> None:
@@ -124,7 +131,7 @@ def torque(signals: Signals, limits: list[float]):
             for sign in (-1, 1):
                 axis.axhline(sign * limits[j], color="0.3", linestyle="--", linewidth=0.8)
         axis.set_title(f"limit ±{limits[j]:g} N·m, largest {100 * used:.0f} % of it", loc="right", fontsize=8)
-        axis.set_ylabel(f"joint {j + 1}\n[N·m]")
+        label_left(axis, f"joint {j + 1}\n[N·m]")
     figure.suptitle("Commanded torque; dashed where it comes near: the drive's limit", x=0.01, ha="left", fontsize=10)
     axes[-1].set_xlabel(TIME)
     return figure
@@ -162,6 +169,7 @@ def bookkeeping(signals: Signals, effective: dict):
         return None
     figure, (top, bottom) = panels(2, 4.6)
     lyapunov_plot.draw(top, bottom, book)
+    legend_right(figure, top, bottom)
     top.set_title("Stability: V of " + ("(42)" if book.force_known else "(45)") + ", from the plant's truth", loc="left")
     top.set_ylabel("V [J]")
     bottom.set_ylabel("V̇ [W]")
@@ -174,8 +182,8 @@ def timing(recording: Recording, summary: dict):
     table = recording.tables["REED_TIMING"]
     names = [name for name, figures in summary["timing_us"].items() if figures]
     period_us = 1e6 / summary["rate_hz"]
-    top = max(float(table[f"{name}_ns"].max()) for name in names) * 1e-3
-    bins = np.geomspace(0.1, max(2 * period_us, top, 1.0), 140)
+    shortest, longest = (1e-3 * function([function(table[f"{name}_ns"]) for name in names]) for function in (np.min, np.max))
+    bins = np.geomspace(max(0.5 * shortest, 0.1), max(2 * period_us, longest, 1.0), 140)
     figure, axes = panels(len(names), 1.2 * len(names) + 0.8)
     set_margins(figure, top_in=0.6, hspace=0.34)
     for axis, name, colour in zip(axes, names, COLOURS):
@@ -189,7 +197,7 @@ def timing(recording: Recording, summary: dict):
         axis.set_yscale("log")
         axis.yaxis.set_minor_locator(NullLocator())
         axis.set_ylim(bottom=0.7)
-        axis.set_ylabel(f"{name}\n[cycles]")
+        label_left(axis, f"{name}\n[cycles]")
     figure.suptitle(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", x=0.01, ha="left",
                     fontsize=10)
     axes[-1].set_xlabel("duration [µs]")
