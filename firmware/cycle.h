@@ -115,7 +115,10 @@ class Cycle final : public CycleBase {
     seen.drives_enabled = measured.AllDrives(bus::DriveState::kEnabled);
     seen.drives_braked = measured.AnyDrive(bus::DriveState::kBraked);
     seen.settled = strategy_.settled() || measured.wrench_age == Measurement<N>::kNever;
-    seen.stop = loop.stop_wanted || (active() && time_s() >= duration_s_);
+    // The end of a run leads through ready to off, as the operator's stop does: drives that are left in ready
+    // brake for want of commands, which looks like a fault.
+    const bool over = active() ? time_s() >= duration_s_ : was_active_;
+    seen.stop = loop.stop_wanted || over;
     seen.trip = verdict.trip != protect::Reason::kNone;
     return seen;
   }

@@ -112,7 +112,8 @@ TEST(Cycle, TheRunEndsByItselfAfterItsDurationWithBrakesClosed) {
   int cycles = 0;
   while (rig.Run() == CycleStatus::kRunning && cycles < 1000) ++cycles;
   EXPECT_LT(cycles, 80);
-  EXPECT_TRUE(rig.drives().braked());
+  EXPECT_EQ(rig.mode(), Mode::kOff);
+  EXPECT_EQ(rig.drives().state(), bus::DriveState::kOff) << "not left to brake by themselves";
   EXPECT_EQ(rig.trip(), Reason::kNone);
 }
 
