@@ -1,10 +1,12 @@
 """A [timing] that cannot be kept is one clear line at start: budgets, rates, cores, rights."""
 
+import os
 import subprocess
+import sys
 
 import pytest
 
-from reed_tools.paths import BUILD
+from reed_tools.paths import BUILD, ROOT
 
 FIRMWARE, PLANT = (str(BUILD / "bin" / name) for name in ("reed_firmware", "reed_plant_sim"))
 BUS = "udp:239.74.163.2:46213"
@@ -33,6 +35,13 @@ def test_a_core_that_does_not_exist_is_refused_by_the_plant_too(setting):
                           capture_output=True, text=True, timeout=30)
     assert done.returncode == 2, done.stderr
     assert len(done.stderr.splitlines()) == 1 and setting.replace("=", " = ") in done.stderr and "0 to " in done.stderr
+
+
+def test_what_the_programs_refuse_leaves_no_run_folder(tmp_path):
+    done = subprocess.run([sys.executable, "-m", "reed_tools", "run", "--bus", BUS, "--out", str(tmp_path / "run"), "--set", "timing.cpu=1000"],
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "tools")}, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and "timing.cpu = 1000" in done.stderr and len(done.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("what", REFUSED)

@@ -8,10 +8,11 @@ from pathlib import Path
 from reed_tools import bus_choice, hil, progress, result_table, scenario, trace_events, vm
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import ROOT, program
-from reed_tools.telemetry_log import merge
+from reed_tools.telemetry_log import load, merge
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = ("firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump", "summary.json", "report.html")
+OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
+             "summary.json", "report.html")
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
@@ -60,11 +61,16 @@ def make_folder(arguments, name: str) -> Path:
     folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{name}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for stale in OWN_FILES:
-            (folder / stale).unlink(missing_ok=True)
+        clear(folder)
     except OSError as error:
         raise UsageError(f"--out {folder}: {error.strerror}") from None
     return folder.resolve()
+
+
+def clear(folder: Path) -> None:
+    """Without what an earlier run left there; other files stay."""
+    for own in OWN_FILES:
+        (folder / own).unlink(missing_ok=True)
 
 
 def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = False) -> int:
@@ -76,6 +82,10 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
     complaint = what_failed(plan, outcome)
     if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
+        if not load(folder / "telemetry.lcmlog").has("REED_MEASURED"):  # nothing ran: no trace of it
+            clear(folder)
+            if not any(folder.iterdir()):
+                folder.rmdir()
         raise UsageError(complaint)
     summary = evaluate(folder)
     if summary["cycles"]:
