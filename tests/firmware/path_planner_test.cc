@@ -21,7 +21,8 @@ TEST(PathPlanner, ACartesianLegIsAStraightMinimumJerkLineOfTheTip) {
   leg.by_m = Eigen::Vector3d(0.02, -0.01, -0.03);
   const JointPath<5> path = bench.Plan(PoseA5(), {leg});
   const Eigen::Vector3d start = bench.At(PoseA5()).tip;
-  for (double t = 0.0; t < 0.5; t += 0.0137) {
+  for (int k = 0; k < 37; ++k) {
+    const double t = 0.0137 * k;
     const control::Reference<5> at = path.At(t);
     const Blend blend = MinimumJerk(t, 0.5);
     const model::Kinematics<5> kin = bench.At(at.theta_d);
@@ -40,11 +41,13 @@ TEST(PathPlanner, ASlideIsASinusoidOfTheTipAboutTheStartOfItsLeg) {
   const JointPath<5> path = bench.Plan(PoseA5(), {hold, leg});
   const Eigen::Vector3d start = bench.At(PoseA5()).tip;
   EXPECT_EQ(path.At(0.1).theta_d, PoseA5());
-  for (double t = 1.3; t < 1.95; t += 0.0137)  // the fade-in of half a period is over
+  for (int k = 0; k < 48; ++k) {
+    const double t = 1.3 + 0.0137 * k;  // the fade-in of half a period is over
     EXPECT_LT(
         (bench.At(path.At(t).theta_d).tip - start - std::sin(3.14159265358979 * (t - 0.2)) * leg.amplitude_m)
             .norm(),
         1e-8);
+  }
 }
 
 TEST(PathPlanner, JointLegsFollowEachOtherWithoutAJump) {
@@ -63,7 +66,8 @@ TEST(PathPlanner, JointLegsFollowEachOtherWithoutAJump) {
                 .norm(),
             1e-9);
   control::Reference<2> before = path.At(0.0);
-  for (double t = 1e-4; t < 2.0; t += 1e-4) {
+  for (int k = 1; k < 20'000; ++k) {
+    const double t = 1e-4 * k;
     const control::Reference<2> at = path.At(t);
     EXPECT_LT((at.theta_d_dot - before.theta_d_dot).norm(), 0.02) << t;
     EXPECT_LT((0.5e-4 * (at.theta_d_dot + before.theta_d_dot) - (at.theta_d - before.theta_d)).norm(), 1e-8)
@@ -79,7 +83,8 @@ TEST(PathPlanner, ALegThatStillMovesWhenTheRunEndsDoesSoSmoothlyToTheLastCycle) 
   swing.frequency_hz = 0.6;
   const JointPath<5> path = bench.Plan(PoseA5(), {swing});
   const double w = 2.0 * 3.14159265358979 * swing.frequency_hz;
-  for (double t = bench.scenario.duration_s - 0.05; t <= bench.scenario.duration_s + 1e-9; t += 1e-3) {
+  for (int k = 0; k <= 50; ++k) {
+    const double t = bench.scenario.duration_s - 0.05 + 1e-3 * k;
     const control::Reference<5> at = path.At(t);
     EXPECT_NEAR(at.theta_d_dot[0], 0.1 * w * std::cos(w * t), 1e-7) << t;
     EXPECT_NEAR(at.theta_d_ddot[0], -0.1 * w * w * std::sin(w * t), 1e-5) << t;

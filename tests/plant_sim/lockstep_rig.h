@@ -25,7 +25,7 @@ class Lockstep : public ::testing::Test {
     return controller_.Take();
   }
   Answer Cycle(std::uint32_t cycle, DriveRequest request, double tau_Nm = 0.0) {
-    const Answer answer = SyncAndTake(cycle);
+    Answer answer = SyncAndTake(cycle);
     controller_.Command(cycle, request, tau_Nm);
     endpoint_->Poll(0);
     return answer;
