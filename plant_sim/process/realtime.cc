@@ -1,20 +1,15 @@
 #include "plant_sim/process/realtime.h"
 
-#include <sched.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <stdexcept>
-#include <system_error>
 
 #include "config/schema/cores.h"
+#include "plant_sim/process/thread_rights.h"
 
 namespace reed::plant {
 namespace {
-
-/// What the last system call complained of.
-std::string ErrnoText() { return std::error_code(errno, std::generic_category()).message(); }
 
 void CheckCore(const TimingConfig& timing) {
   const long cores = sysconf(_SC_NPROCESSORS_CONF);
@@ -39,17 +34,11 @@ std::vector<std::string> AskForRealtime(const TimingConfig& timing) {
   // Level with the loop: on one CPU neither interrupts the other, so an answer is complete before the loop
   // sees its first frame, and a command is recorded before the plant acts on it. Apart, each frame costs two
   // context switches.
-  sched_param param{};
-  param.sched_priority = timing.priority;
-  if (sched_setscheduler(0, SCHED_FIFO, &param) != 0) {
-    refused.push_back("SCHED_FIFO " + std::to_string(param.sched_priority) + " not granted (" + ErrnoText() +
+  if (!RaiseTo(timing.priority)) {
+    refused.push_back("SCHED_FIFO " + std::to_string(timing.priority) + " not granted (" + ErrnoText() +
                       "); fix: run as root, or rtprio 99 in /etc/security/limits.conf");
   }
-  const int core = PlantCore(timing);
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  CPU_SET(static_cast<std::size_t>(core), &cores);
-  if (sched_setaffinity(0, sizeof cores, &cores) != 0) {
+  if (const int core = PlantCore(timing); !PinTo(core)) {
     refused.push_back(
         "core " + std::to_string(core) + " not granted (" + ErrnoText() +
         "); fix: a core that is online and in this container's cpuset, or timing.plant_cpu = -1");

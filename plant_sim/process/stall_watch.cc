@@ -1,14 +1,11 @@
 #include "plant_sim/process/stall_watch.h"
 
-#include <sched.h>
-
-#include <cerrno>
 #include <ctime>
 #include <future>
-#include <system_error>
 #include <utility>
 
 #include "bus/monotonic.h"
+#include "plant_sim/process/thread_rights.h"
 
 namespace reed::plant {
 namespace {
@@ -21,17 +18,9 @@ std::int64_t TimerResolution_ns() {
 
 /// Core and priority for this thread; why they are refused, or "".
 std::string Ask(int core, int priority) {
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  CPU_SET(static_cast<std::size_t>(core), &cores);
-  sched_param param{};
-  param.sched_priority = priority;
-  if (sched_setaffinity(0, sizeof cores, &cores) == 0 && sched_setscheduler(0, SCHED_FIFO, &param) == 0) {
-    return "";
-  }
+  if (PinTo(core) && RaiseTo(priority)) return "";
   return "stalls of the machine hurt the arm: SCHED_FIFO " + std::to_string(priority) + " on core " +
-         std::to_string(core) + " not granted to the thread that would tell them (" +
-         std::error_code(errno, std::generic_category()).message() +
+         std::to_string(core) + " not granted to the thread that would tell them (" + ErrnoText() +
          "); fix: run as root, or rtprio 99 in /etc/security/limits.conf";
 }
 

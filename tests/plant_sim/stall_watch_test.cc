@@ -2,7 +2,6 @@
 #include "plant_sim/process/stall_watch.h"
 
 #include <gtest/gtest.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,7 @@
 
 #include "bus/monotonic.h"
 #include "config/schema/cores.h"
+#include "plant_sim/process/thread_rights.h"
 
 namespace reed::plant {
 namespace {
@@ -17,21 +17,11 @@ namespace {
 constexpr int kWatch = 50;  // its priority
 constexpr std::int64_t kMs = 1'000'000;
 
-void PinToLastCore() {
-  cpu_set_t cores;
-  CPU_ZERO(&cores);
-  CPU_SET(static_cast<std::size_t>(LoopCore({})), &cores);
-  ASSERT_EQ(sched_setaffinity(0, sizeof cores, &cores), 0);
-}
-
 /// Keeps the last core busy for so long at this priority of SCHED_FIFO; false if that is not granted.
 bool Hog(int priority, std::int64_t for_ns) {
   bool granted = false;
   std::thread([&] {
-    PinToLastCore();
-    sched_param param{};
-    param.sched_priority = priority;
-    granted = sched_setscheduler(0, SCHED_FIFO, &param) == 0;
+    granted = PinTo(LoopCore({})) && RaiseTo(priority);
     const std::int64_t end_ns = bus::NowNs() + for_ns;
     while (granted && bus::NowNs() < end_ns) {
     }
