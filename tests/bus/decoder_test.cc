@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "bus/messages.h"
+#include "tests/support/reprotect.h"
 
 namespace reed::bus {
 namespace {
+
+using test::Reprotect;
 
 std::uint64_t Count(const Decoder& decoder, Reject reject) {
   return decoder.counters().rejected[static_cast<std::size_t>(reject)];
@@ -24,15 +27,6 @@ std::vector<Frame> OneOfEach(Encoder& encoder) {
   frames.push_back(encoder.Wrench({17, {1, 2, 3}, {4, 5, 6}, false}));
   frames.push_back(encoder.Command({17, DriveRequest::kEnable, {1, 2, 3, 4, 5, 6, 7, 8}}));
   return frames;
-}
-
-void Reprotect(Frame& frame, std::uint8_t counter) {
-  for (const FrameLayout& layout : layout::kFrames) {
-    if (layout.id != frame.id) continue;
-    E2eSender sender;
-    for (int i = 0; i <= counter; ++i)
-      sender.Protect(std::span(frame.data).first(frame.size), layout.data_id);
-  }
 }
 
 TEST(Decoder, FramesHaveTheIdentifiersAndSizesOfTheContract) {

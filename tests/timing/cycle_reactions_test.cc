@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/firmware/sil_rig.h"
+#include "tests/support/reprotect.h"
 
 namespace reed {
 namespace {
@@ -64,13 +65,7 @@ void MarkTheNextAnswers(test::SilRig& rig) {
     if (cycle != next || frame.id == bus::layout::kWrench.id) return true;
     constexpr std::uint8_t kMark = 1 << 3;  // bit 27 of JOINT_STATE
     frame.data[3] |= kMark;
-    const std::size_t joint = frame.id - bus::layout::kJointState[0].id;
-    const std::uint16_t data_id = bus::layout::kJointState[joint].data_id;
-    const std::array<std::uint8_t, 2> id{static_cast<std::uint8_t>(data_id & 0xFF),
-                                         static_cast<std::uint8_t>(data_id >> 8)};
-    const std::uint16_t crc = bus::Crc16(id, bus::Crc16(std::span(frame.data).first(frame.size).subspan(2)));
-    frame.data[0] = static_cast<std::uint8_t>(crc & 0xFF);
-    frame.data[1] = static_cast<std::uint8_t>(crc >> 8);
+    test::Reprotect(frame, frame.data[2]);  // with the counter that it had
     return true;
   };
 }
