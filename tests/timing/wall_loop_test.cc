@@ -1,55 +1,10 @@
-// Parts 1 and 2 of the timing budget, in virtual time: budgets, overrun policies, stalls. No real waiting.
-#include "firmware/wall_loop.h"
-
+// Part 2 of the timing budget, in virtual time: the grid, overrun policies, stalls. No real waiting.
 #include <gtest/gtest.h>
 
-#include <reed/event_t.hpp>
-#include <string>
-
-#include "firmware/telemetry/encode.h"
-#include "tests/timing/fake_cycle.h"
+#include "tests/timing/wall_loop_rig.h"
 
 namespace reed {
 namespace {
-
-constexpr std::int64_t kPeriod = 1'000'000;
-constexpr std::int64_t kMs = 1'000'000;
-
-struct Rig {
-  explicit Rig(int cycles) : cycle(clock, cycles), ring(256) {}
-
-  LoopResult Run() { return WallLoop(clock, options, cycle, ring).Run(stop); }
-
-  std::vector<telemetry::Snapshot> Recorded() {
-    std::vector<telemetry::Snapshot> all;
-    telemetry::Snapshot one;
-    while (ring.Pop(one)) all.push_back(one);
-    return all;
-  }
-
-  /// Cycle 5 loses this much time behind its last border.
-  void StallAt5(std::int64_t ns) {
-    cycle.cost = [ns](std::uint32_t k) {
-      test::CycleCost cost;
-      cost.after = k == 5 ? ns : 0;
-      return cost;
-    };
-  }
-
-  rt::VirtualClock clock{7'000};
-  test::FakeCycle cycle;
-  telemetry::SnapshotRing ring;
-  LoopOptions options;
-  std::atomic<bool> stop{false};
-};
-
-int Events(const std::vector<telemetry::Snapshot>& all, protect::Reason reason) {
-  int count = 0;
-  for (const telemetry::Snapshot& one : all)
-    for (int i = 0; i < one.num_events; ++i)
-      count += one.events[static_cast<std::size_t>(i)].code == static_cast<int>(reason) ? 1 : 0;
-  return count;
-}
 
 TEST(WallLoop, PunctualCyclesStayOnTheGridAndNothingIsCounted) {
   Rig rig(50);
@@ -192,89 +147,6 @@ TEST(WallLoop, TheReceivePhaseEndsOnItsBudgetHoweverLateTheWakeUp) {
   rig.Run();
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(rig.cycle.rx_deadline[k], rig.cycle.started_ns[k] + 400'000);
   EXPECT_EQ(rig.Recorded()[3].timing.wake_ns, 250'000);
-}
-
-/// Compute takes 301 µs of 300 in cycles 4, 5 and 6.
-void SlowCompute(Rig& rig) {
-  rig.cycle.cost = [](std::uint32_t k) {
-    test::CycleCost cost;
-    if (k >= 4 && k <= 6) cost.compute = 301'000;
-    return cost;
-  };
-}
-
-TEST(PhaseBudget, CountOnlyCountsAndTellsOnceWithTheLastThreeCycles) {
-  Rig rig(12);
-  SlowCompute(rig);
-  rig.Run();
-  for (const LoopState& state : rig.cycle.seen) {
-    EXPECT_FALSE(state.hold);
-    EXPECT_FALSE(state.degrade);
-  }
-  const auto recorded = rig.Recorded();
-  EXPECT_EQ(recorded.back().timing.compute_over, 3);
-  EXPECT_EQ(recorded.back().timing.rx_over, 0);
-  ASSERT_EQ(Events(recorded, protect::Reason::kPhaseBudget), 1);
-  ASSERT_EQ(recorded[4].num_events, 1);
-  EXPECT_EQ(recorded[4].events[0].value, 1.0) << "compute";
-  const rt::PhaseHistory expected{
-      {{100'000, 50'000, 10'000}, {100'000, 50'000, 10'000}, {100'000, 301'000, 10'000}}};
-  EXPECT_EQ(recorded[4].phase_history, expected);
-}
-
-TEST(PhaseBudget, TheEventsTextTellsTheLastThreeCyclesPhaseTimes) {
-  Rig rig(12);
-  SlowCompute(rig);
-  rig.Run();
-  telemetry::Encoder encoder;
-  const telemetry::Bytes bytes = encoder.Event(rig.Recorded()[4], 0, "a phase was too long", 0);
-  reed::event_t event;
-  ASSERT_GT(event.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
-  EXPECT_EQ(event.text.rfind("a phase was too long", 0), 0U);
-  std::size_t at = 0;
-  for (const char* phase : {"100", "50", "10", "100", "50", "10", "100", "301", "10"}) {
-    at = event.text.find(phase, at);
-    ASSERT_NE(at, std::string::npos) << phase << " is not told in its place: " << event.text;
-    at += std::string(phase).size();
-  }
-}
-
-TEST(PhaseBudget, ExactlyTheBudgetIsWithinIt) {
-  Rig rig(12);
-  rig.cycle.cost = [](std::uint32_t) { return test::CycleCost{400'000, 300'000, 300'000 - 1, 0}; };
-  rig.Run();
-  const auto recorded = rig.Recorded();
-  EXPECT_EQ(recorded.back().timing.rx_over + recorded.back().timing.compute_over, 0);
-}
-
-TEST(PhaseBudget, HoldAndDegradeLastAsLongAsTheBreachAndOneCycle) {
-  for (const rt::PhaseAction action : {rt::PhaseAction::kHold, rt::PhaseAction::kDegrade}) {
-    Rig rig(12);
-    rig.options.phases.action = action;
-    SlowCompute(rig);
-    rig.Run();
-    for (std::size_t k = 0; k < 12; ++k) {
-      const bool expected = k >= 5 && k <= 7;
-      EXPECT_EQ(rig.cycle.seen[k].hold, expected && action == rt::PhaseAction::kHold) << k;
-      EXPECT_EQ(rig.cycle.seen[k].degrade, expected && action == rt::PhaseAction::kDegrade) << k;
-    }
-  }
-}
-
-TEST(PhaseBudget, FaultComesAfterSoManyInARowAndNotBefore) {
-  Rig rig(12);
-  rig.options.phases.action = rt::PhaseAction::kFault;
-  rig.options.phases.max_in_row = 3;
-  SlowCompute(rig);
-  rig.Run();
-  EXPECT_EQ(rig.cycle.stopped_at, -1);
-
-  Rig strict(12);
-  strict.options.phases.action = rt::PhaseAction::kFault;
-  strict.options.phases.max_in_row = 2;
-  SlowCompute(strict);
-  strict.Run();
-  EXPECT_EQ(strict.cycle.stopped_at, 7) << "the cycle after the third";
 }
 
 TEST(WallLoop, TwoSecondsOfSilenceAreALostBus) {
