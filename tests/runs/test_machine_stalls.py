@@ -55,11 +55,9 @@ def test_a_core_that_is_taken_away_for_40_ms_is_counted_and_stops_nothing(stolen
     assert sum(event.code == CLOCK_STOOD for event in recording.singles["REED_PLANT_EVENT"]) >= 5
 
 
-@pytest.mark.parametrize("counts_misses", [True, False])
-def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
-    """By its own count of missed cycles, and where that is switched off by the drives, which have braked."""
+def stop_for_60_ms(*switch) -> tuple[int, str, list[str]]:
+    """Stops a controller that is at work. Its exit code, its last complaint, and what the plant said of the machine."""
     common = ["--config", "press_known", "--bus", BUS, "--clock", "wall", "--no-lcm"]
-    switch = [] if counts_misses else ["--set", "timing.max_missed_in_row=1000"]
     programs = [subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *common], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)]
     plant = programs[0]
     try:
@@ -73,10 +71,25 @@ def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
         firmware.send_signal(signal.SIGSTOP)
         time.sleep(0.06)
         firmware.send_signal(signal.SIGCONT)
-        complaint = firmware.communicate(timeout=30)[1].splitlines()[-1]
-        assert firmware.returncode == 1
-        assert "closed brake" in complaint or (counts_misses and "too many missed cycles" in complaint)
+        complaints = firmware.communicate(timeout=30)[1].splitlines()
+        plant.terminate()
+        said = plant.communicate(timeout=30)[0]
+        return firmware.returncode, (complaints or [""])[-1], [line for line in said.splitlines() if "machine was away" in line]
     finally:
         for program in programs:
             program.kill()
             program.communicate()
+
+
+@pytest.mark.parametrize("counts_misses", [True, False])
+def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
+    """By its own count of missed cycles, and where that is switched off by the drives, which have braked. A machine that
+    was away itself at that moment would be its excuse, rightly: then the stop is made again."""
+    switch = [] if counts_misses else ["--set", "timing.max_missed_in_row=1000"]
+    for _ in range(10):
+        code, complaint, machine_was_away = stop_for_60_ms(*switch)
+        if not machine_was_away:
+            break
+    assert not machine_was_away, "ten times in a row, this machine is no place for this test"
+    assert code == 1
+    assert "closed brake" in complaint or (counts_misses and "too many missed cycles" in complaint)
