@@ -83,13 +83,12 @@ def stop_for_60_ms(*switch) -> tuple[int, str, list[str]]:
 
 @pytest.mark.parametrize("counts_misses", [True, False])
 def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
-    """By its own count of missed cycles, and where that is switched off by the drives, which have braked. A machine that
-    was away itself at that moment would be its excuse, rightly: then the stop is made again."""
+    """By its own count of missed cycles, and where that is switched off by the drives, which have braked. Only a machine
+    that was away itself just then is its excuse, rightly: then the stop is made again."""
     switch = [] if counts_misses else ["--set", "timing.max_missed_in_row=1000"]
     for _ in range(10):
         code, complaint, machine_was_away = stop_for_60_ms(*switch)
-        if not machine_was_away:
+        if code == 1 or not machine_was_away:
             break
-    assert not machine_was_away, "ten times in a row, this machine is no place for this test"
-    assert code == 1
+    assert code == 1, machine_was_away
     assert "closed brake" in complaint or (counts_misses and "too many missed cycles" in complaint)
