@@ -5,8 +5,10 @@
 namespace reed {
 namespace {
 
-constexpr std::int64_t kLockstepTurn_ns =
-    100'000'000;  // lockstep: one wait; frames that are lost cost this much once
+/// Lockstep: how long an answer may take. A machine or a debugger that holds the plant up for less changes no
+/// figure of a run; answers that are lost cost this much once, and those after them only the second.
+constexpr std::int64_t kFirstTurn_ns = 1'000'000'000;
+constexpr std::int64_t kNextTurn_ns = 50'000'000;
 constexpr std::int64_t kFullRing_ns = 200'000;  // lockstep: how often a full ring is looked at again
 
 std::int32_t Nanoseconds(double us) { return static_cast<std::int32_t>(us * 1e3); }
@@ -42,11 +44,14 @@ LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
   LoopState state;
   const std::int64_t start_ns = clock.NowNs();
   Silence silence(start_ns);
+  bool lost = false;
   do {
     while (ring.Claim() == nullptr) clock.SleepUntil(clock.NowNs() + kFullRing_ns);
     const std::int64_t now_ns = clock.NowNs();
     state.stop_wanted = stop.load(std::memory_order_relaxed);
-    result.status = stepper.Step(now_ns, 0, now_ns + kLockstepTurn_ns, state, result);
+    const std::int64_t turn_ns = lost ? kNextTurn_ns : kFirstTurn_ns;
+    result.status = stepper.Step(now_ns, 0, now_ns + turn_ns, state, result);
+    lost = stepper.snapshot().timing.rx_ns >= turn_ns;
     if (result.status == CycleStatus::kRunning &&
         silence.TooLong(stepper.snapshot().bus.frames_rx, clock.NowNs()))
       result.status = CycleStatus::kBusLost;

@@ -38,12 +38,18 @@ class ArmBus {
   /// the deadline passes. True if all joints answered. A babbling bus cannot hold the loop: what is more than
   /// kMostFrames waits for the next cycle.
   bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
+    std::int64_t wait_end_ns = std::min(deadline_ns, tap.time_ns + kOneWait_ns);
     for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
-      const int count = transport_.Receive(received_, Missing(), deadline_ns);
-      if (count == 0) break;                   // the deadline
+      const int count = transport_.Receive(received_, Missing(), wait_end_ns);
       const std::int32_t at_ns = Offset(tap);  // one batch, one reading of the clock
+      const std::int64_t now_ns = tap.time_ns + at_ns;
+      if (count == 0) {
+        const bool gave_up = now_ns < wait_end_ns;  // the transport itself: nothing can come any more
+        if (wait_end_ns == deadline_ns || MissingJoints() == 0 || gave_up) break;
+      }
       for (int i = 0; i < count; ++i) Take(received_[static_cast<std::size_t>(i)], at_ns, tap);
       taken += count;
+      wait_end_ns = std::min(deadline_ns, now_ns + kOneWait_ns);
     }
     wrench_expected_ = wrench_heard_;
     return MissingJoints() == 0;
@@ -65,6 +71,9 @@ class ArmBus {
 
  private:
   static constexpr int kMostFrames = 96;  // of one cycle: several whole answers after a stall
+  /// Only lockstep waits for longer, and only for joints: the wrench travels with them, and one that is not
+  /// there by then was not sent.
+  static constexpr std::int64_t kOneWait_ns = 100'000'000;
 
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }

@@ -1,6 +1,7 @@
 // The arm as seen through frames: which values are used and how old they are.
 #include <tuple>
 
+#include "bus/monotonic.h"
 #include "tests/firmware/arm_bus_rig.h"
 
 namespace reed {
@@ -152,6 +153,60 @@ TEST_F(ArmBusTest, AClockThatStoodStillIsBelievedOfASimulatedArmOnly) {
       EXPECT_EQ(bus.measurement().clock_stood, stood && believed) << kind << " " << interface;
     }
   }
+}
+
+/// Some waits are in vain and take as long as they may.
+class HeldUp final : public bus::Transport {
+ public:
+  HeldUp(bus::Transport& inner, int first_in_vain, int last_in_vain)
+      : inner_(inner), first_(first_in_vain), last_(last_in_vain) {}
+  int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
+    ++waits;
+    if (waits < first_ || waits > last_) return inner_.Receive(out, wanted, deadline_ns);
+    rt::MonotonicClock{}.SleepUntil(deadline_ns);
+    return 0;
+  }
+  int Send(std::span<const bus::Frame> frames) noexcept override { return inner_.Send(frames); }
+  bool alive() const noexcept override { return true; }
+  const bus::TransportCounters& counters() const noexcept override { return inner_.counters(); }
+  std::string kind() const override { return "held up"; }
+  std::string interface() const override { return ""; }
+
+  int waits = 0;
+
+ private:
+  bus::Transport& inner_;
+  int first_, last_;
+};
+
+TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
+  HeldUp transport(wire_.controller, 1, 2);
+  ArmBus<kN> bus(transport);
+  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  bus.SendSync(0, tap_);
+  PutAll(0);
+  Put(Wrench(0, 5.0));
+  EXPECT_TRUE(bus.Receive(tap_.time_ns + bus::kNsPerSecond, tap_)) << "after two tenths of the second";
+  EXPECT_EQ(bus.measurement().wrench_age, 0);
+}
+
+TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
+  HeldUp transport(wire_.controller, 2, 100);
+  ArmBus<kN> bus(transport);
+  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  bus.SendSync(0, tap_);
+  PutAll(0);
+  EXPECT_TRUE(bus.Receive(tap_.time_ns + 10 * bus::kNsPerSecond, tap_));
+  EXPECT_EQ(transport.waits, 2);
+}
+
+TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
+  HeldUp transport(wire_.controller, 0, 0);
+  ArmBus<kN> bus(transport);
+  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  bus.SendSync(0, tap_);
+  EXPECT_FALSE(bus.Receive(tap_.time_ns + 10 * bus::kNsPerSecond, tap_));
+  EXPECT_EQ(transport.waits, 1);
 }
 
 TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
