@@ -21,6 +21,8 @@ std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
     return in;
   }
   if (decoded.reject != bus::Reject::kNone) ++rejected_;
+  if (decoded.kind == bus::MessageKind::kJointState || decoded.kind == bus::MessageKind::kWrench)
+    another_arm_ = true;
   return std::nullopt;
 }
 

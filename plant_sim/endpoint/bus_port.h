@@ -35,6 +35,8 @@ class BusPort {
 
   bool alive() const noexcept { return transport_.alive(); }
   std::uint64_t rejected() const noexcept { return rejected_; }
+  /// Somebody else has answered as joint or wrist.
+  bool another_arm() const noexcept { return another_arm_; }
 
  private:
   static constexpr std::size_t kBatch = 64;
@@ -49,6 +51,7 @@ class BusPort {
   std::array<Incoming, kBatch> incoming_;
   std::optional<std::uint32_t> first_cycle_, last_cycle_;  // of the present controller
   std::uint64_t rejected_ = 0;
+  bool another_arm_ = false;
 };
 
 }  // namespace reed::plant

@@ -19,7 +19,15 @@ bool Endpoint::Poll(std::int64_t deadline_ns) {
     return false;
   }
   Handle(incoming);
+  if (port_.another_arm() && !told_of_another_arm_) TellOfAnotherArm();
   return !incoming.empty();
+}
+
+void Endpoint::TellOfAnotherArm() noexcept {
+  told_of_another_arm_ = true;
+  journal_.Note(PlantEvent::kAnotherArm, robot_.drives().state(), robot_.time_s(),
+                "another arm answers on this bus; end one of the two: the controller takes whose frame comes "
+                "first");
 }
 
 bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {

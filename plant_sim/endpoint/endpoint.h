@@ -53,6 +53,8 @@ class Endpoint {
 
  private:
   void Fail(Outcome outcome, const std::string& line);
+  /// Once.
+  void TellOfAnotherArm() noexcept;
 
   ArmBody& body_;
   Journal journal_;
@@ -60,6 +62,7 @@ class Endpoint {
   BusPort port_;
   Outcome outcome_ = Outcome::kRunning;
   std::string failure_;
+  bool told_of_another_arm_ = false;
   std::int64_t syncs_ = 0;
   std::uint64_t refused_commands_ = 0;
 };

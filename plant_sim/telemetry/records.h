@@ -40,6 +40,7 @@ enum class PlantEvent : std::int32_t {
   kWrenchLost = 210,
   kWrenchBack = 211,
   kClockStood = 212,  // value: for how long, s
+  kAnotherArm = 213,  // value: plant time, s
 };
 
 /// Mirrors lcmtypes/event_t.lcm.

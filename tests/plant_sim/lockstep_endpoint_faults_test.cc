@@ -119,6 +119,18 @@ TEST_F(Lockstep, FramesOfNobodysConcernAreIgnored) {
   EXPECT_TRUE(wire_.controller.inbox.empty());
 }
 
+TEST_F(Lockstep, AnotherArmOnTheBusIsToldOnceAndAnswersGoOn) {
+  bus::Encoder another_arm;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(recorder_.Count(PlantEvent::kAnotherArm), k > 0 ? 1 : 0);
+    controller_.Sync(k);
+    controller_.Send(another_arm.JointState(0, {}));
+    endpoint_->Poll(0);
+  }
+  EXPECT_EQ(recorder_.Count(PlantEvent::kAnotherArm), 1);
+  EXPECT_EQ(endpoint_->syncs(), 3);
+}
+
 TEST_F(Lockstep, ADivergingArmClosesTheBrakesAndEndsWithExit3AndOneLine) {
   Enable();
   body_.sick_from_s = 5 * kPeriod_s;
