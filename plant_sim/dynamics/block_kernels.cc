@@ -1,5 +1,6 @@
 #include "plant_sim/dynamics/block_kernels.h"
 
+#include <cstddef>
 #include <cstring>
 
 #include "plant_sim/dynamics/processor_clones.h"
@@ -18,6 +19,8 @@ typedef double Group
 
 inline const Group& At(const double* row, int group) { return reinterpret_cast<const Group*>(row)[group]; }
 inline Group& At(double* row, int group) { return reinterpret_cast<Group*>(row)[group]; }
+inline const double* Row(const double* block, int r) { return block + std::ptrdiff_t{kN} * r; }
+inline double* Row(double* block, int r) { return block + std::ptrdiff_t{kN} * r; }
 
 }  // namespace
 
@@ -25,13 +28,14 @@ REED_CLONES void AddCongruence(double* __restrict M, const double* __restrict X,
   for (int g = 0; g < kGroups; ++g) {
     Group IX[6];
     for (int i = 0; i < 6; ++i) {
-      IX[i] = I[6 * i] * At(X, g);
-      for (int j = 1; j < 6; ++j) IX[i] += I[6 * i + j] * At(X + kN * j, g);
+      const double* const I_i = I + std::ptrdiff_t{6} * i;
+      IX[i] = I_i[0] * At(X, g);
+      for (int j = 1; j < 6; ++j) IX[i] += I_i[j] * At(Row(X, j), g);
     }
     for (int r = 0; r < kLanes * (g + 1); ++r) {  // the diagonal lies in this group or to its left
-      Group sum = At(M + kN * r, g);
+      Group sum = At(Row(M, r), g);
       for (int j = 0; j < 6; ++j) sum += X[kN * j + r] * IX[j];
-      At(M + kN * r, g) = sum;
+      At(Row(M, r), g) = sum;
     }
   }
 }
@@ -40,7 +44,7 @@ REED_CLONES void EliminateLeading(double* __restrict M, double* __restrict p, do
   double q[kN];
   std::memcpy(q, p, sizeof q);
   for (int k = 0; k < kPivots; ++k) {
-    const double* const source = M + kN * k;
+    const double* const source = Row(M, k);
     const double inv = 1.0 / source[k];
     inverse[k] = inv;
     p[k] = q[k];
@@ -56,7 +60,7 @@ REED_CLONES void EliminateLeading(double* __restrict M, double* __restrict p, do
       const int first = row_group * kLanes;
       for (int r = k < first ? first : k + 1; r < first + kLanes; ++r)
 #pragma GCC unroll 4
-        for (int g = row_group; g < kGroups; ++g) At(M + kN * r, g) -= source[r] * scaled[g];
+        for (int g = row_group; g < kGroups; ++g) At(Row(M, r), g) -= source[r] * scaled[g];
     }
   }
   std::memcpy(p + kPivots, q + kPivots, (kN - kPivots) * sizeof(double));
@@ -66,8 +70,8 @@ REED_CLONES void BackSubstitute(const double* __restrict M, const double* __rest
                                 const double* __restrict inverse, double* __restrict k) {
   for (int r = 0; r < kPivots; ++r) k[r] = 0.0;  // so that whole groups can be summed
   for (int r = kPivots - 1; r >= 0; --r) {
-    Group sum = At(M + kN * r, kGroups - 1) * At(k, kGroups - 1);
-    for (int g = r / kLanes; g < kGroups - 1; ++g) sum += At(M + kN * r, g) * At(k, g);
+    Group sum = At(Row(M, r), kGroups - 1) * At(k, kGroups - 1);
+    for (int g = r / kLanes; g < kGroups - 1; ++g) sum += At(Row(M, r), g) * At(k, g);
     k[r] = -(p[r] + ((sum[0] + sum[1]) + (sum[2] + sum[3]))) * inverse[r];
   }
 }

@@ -182,30 +182,31 @@ class HeldUp final : public bus::Transport {
 TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
   HeldUp transport(wire_.controller, 1, 2);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  tap_.time_ns = bus::NowNs();
   bus.SendSync(0, tap_);
   PutAll(0);
   Put(Wrench(0, 5.0));
-  EXPECT_TRUE(bus.Receive(tap_.time_ns + bus::kNsPerSecond, tap_)) << "after two tenths of the second";
+  EXPECT_TRUE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
+  EXPECT_GE(bus::NowNs() - tap_.time_ns, bus::kNsPerSecond / 5);
   EXPECT_EQ(bus.measurement().wrench_age, 0);
 }
 
 TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
   HeldUp transport(wire_.controller, 2, 100);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  tap_.time_ns = bus::NowNs();
   bus.SendSync(0, tap_);
   PutAll(0);
-  EXPECT_TRUE(bus.Receive(tap_.time_ns + 10 * bus::kNsPerSecond, tap_));
+  EXPECT_TRUE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
   EXPECT_EQ(transport.waits, 2);
 }
 
 TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
   HeldUp transport(wire_.controller, 0, 0);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = rt::MonotonicClock{}.NowNs();
+  tap_.time_ns = bus::NowNs() + bus::kNsPerSecond;  // so that no stall of the machine fills the wait
   bus.SendSync(0, tap_);
-  EXPECT_FALSE(bus.Receive(tap_.time_ns + 10 * bus::kNsPerSecond, tap_));
+  EXPECT_FALSE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
   EXPECT_EQ(transport.waits, 1);
 }
 

@@ -5,7 +5,6 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import time
 
 import pytest
 
@@ -34,6 +33,11 @@ def end(process, sig=signal.SIGINT):
         process.send_signal(sig)
     out, err = process.communicate(timeout=30)
     return process.returncode, out, err
+
+
+def await_controller(plant):
+    """Until the plant has heard a SYNC."""
+    assert "controller present" in plant.stdout.readline()
 
 
 @pytest.fixture
@@ -105,9 +109,9 @@ def test_a_bus_on_which_nobody_answers_is_lost_and_exit_3():
 
 
 def test_a_second_firmware_on_the_same_bus_is_refused_and_the_first_goes_on(plant):
-    plant(43305, "--clock", "wall")
+    arm = plant(43305, "--clock", "wall")
     first = start(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
-    time.sleep(1.0)  # until it says SYNC
+    await_controller(arm)
     status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
     assert status == 3
     assert error.splitlines()[-1].startswith("reed_firmware: another controller") and "43305" in error, error
@@ -118,9 +122,9 @@ def test_a_second_firmware_on_the_same_bus_is_refused_and_the_first_goes_on(plan
 
 @pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_a_run_that_only_watches(plant, sig):
-    plant(43306, "--clock", "wall")
+    arm = plant(43306, "--clock", "wall")
     process = start(FIRMWARE, "--config", "press_known", "--bus", bus(43306), "--no-lcm")
-    time.sleep(1.0)
+    await_controller(arm)
     status, out, _ = end(process, sig)
     assert status == 0 and "done: " in out
 
@@ -134,9 +138,9 @@ def without_rights(*command):
 
 def test_a_refused_priority_and_memory_lock_cost_a_line_each_and_nothing_else(plant):
     assert shutil.which("setpriv"), "util-linux is part of every Debian"
-    plant(43307, "--clock", "wall")
+    arm = plant(43307, "--clock", "wall")
     process = start(*without_rights(FIRMWARE, "--config", "press_known", "--bus", bus(43307), "--no-lcm"))
-    time.sleep(1.0)
+    await_controller(arm)
     status, out, error = end(process)
     assert status == 0 and "done: " in out, error
     assert "SCHED_FIFO" in error and "memory" in error.lower(), error

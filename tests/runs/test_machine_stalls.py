@@ -95,7 +95,7 @@ def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
 
 
 def digest_in_lockstep(log, held_up: bool) -> str:
-    common = ["--config", "press_known", "--bus", BUS, "--clock", "lockstep", "--no-lcm"]
+    common = ["--config", "press_known", "--bus", BUS, "--clock", "lockstep", "--no-lcm", "--set", "scenario.duration_s=10"]
     plant = subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *common], stdout=subprocess.PIPE, text=True)
     try:
         assert "waiting for SYNC" in plant.stdout.readline()
@@ -104,7 +104,7 @@ def digest_in_lockstep(log, held_up: bool) -> str:
             assert firmware.poll() is None
         if held_up:
             plant.send_signal(signal.SIGSTOP)
-            time.sleep(0.4)
+            time.sleep(0.25)
             assert firmware.poll() is None, "it was to be held up in the middle of a run"
             plant.send_signal(signal.SIGCONT)
         assert firmware.wait(timeout=60) == 0
@@ -114,5 +114,5 @@ def digest_in_lockstep(log, held_up: bool) -> str:
     return load(log).digest("lockstep")
 
 
-def test_a_plant_that_is_held_up_for_400_ms_changes_no_bit_of_a_lockstep_run(tmp_path):
+def test_a_plant_that_is_held_up_for_250_ms_changes_no_bit_of_a_lockstep_run(tmp_path):
     assert digest_in_lockstep(tmp_path / "held_up.lcmlog", True) == digest_in_lockstep(tmp_path / "free.lcmlog", False)

@@ -147,9 +147,11 @@ def test_bus_vm_is_the_same_run_with_its_folder_outside(udp_run, tmp_path):
 def test_foreign_programs_read_a_run_on_the_software_bus(tmp_path):
     """lcm-logger hears what the run recorded; python-can's logger hears the frames."""
     logger = subprocess.Popen(["lcm-logger", "-f", "-q", "--lcm-url", LCM_URL, str(tmp_path / "witness.lcmlog")])
-    listener = subprocess.Popen([sys.executable, "-c", LISTENER, str(tmp_path / "witness.txt"), str(UDP_PORT)])
+    listener = subprocess.Popen([sys.executable, "-c", LISTENER, str(tmp_path / "witness.txt"), str(UDP_PORT)],
+                                stdout=subprocess.PIPE, text=True)
     try:
-        time.sleep(2.0)
+        assert listener.stdout.readline() == "listening\n"
+        time.sleep(1.0)  # lcm-logger does not say when it listens
         run(tmp_path, "--clock", "wall", "--duration", "1")
         time.sleep(1.0)
     finally:
@@ -171,6 +173,7 @@ def test_foreign_programs_read_a_run_on_the_software_bus(tmp_path):
 LISTENER = """
 import sys, can
 bus = can.Bus(interface="udp_multicast", channel="239.74.163.2", port=int(sys.argv[2]), fd=True)
+print("listening", flush=True)
 with open(sys.argv[1], "w", buffering=1) as out:
     for message in bus:
         out.write(f"{message.arbitration_id:03X} {message.data.hex().upper()}\\n")
