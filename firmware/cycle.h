@@ -48,10 +48,10 @@ class Cycle final : public CycleBase {
 
     Record(measured, decision, tau, verdict, snapshot);  // record
     snapshot.timing.clock_stood = measured.clock_stood;
-    snapshot.timing.rx_ns = static_cast<std::int32_t>(received - snapshot.time_ns);
-    snapshot.timing.compute_ns = static_cast<std::int32_t>(computed - received);
-    snapshot.timing.tx_ns = static_cast<std::int32_t>(sent - computed);
-    snapshot.timing.cycle_ns = static_cast<std::int32_t>(sent - snapshot.time_ns);
+    snapshot.timing.rx_ns = rt::ShortNs(received - snapshot.time_ns);
+    snapshot.timing.compute_ns = rt::ShortNs(computed - received);
+    snapshot.timing.tx_ns = rt::ShortNs(sent - computed);
+    snapshot.timing.cycle_ns = rt::ShortNs(sent - snapshot.time_ns);
     return Status(loop.stop_wanted);
   }
 
@@ -84,27 +84,36 @@ class Cycle final : public CycleBase {
     return v;
   }
 
-  /// Trips are looked for only while torque flows: a still arm behind closed brakes is safe.
+  /// Trips are looked for only while torque may flow: a still arm behind closed brakes is safe.
   protect::Verdict Judge(const Measurement<N>& measured, const LoopState& loop) const noexcept {
     using protect::Reason;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
-    if (!active()) return {};
+    if (supervisor_.Request() != bus::DriveRequest::kEnable) return {};
     // What was missed while the arm's own clock stood still did it no harm. Real drives never say so.
-    if (loop.missed_in_row_exceeded && !measured.clock_stood)
+    if (active() && loop.missed_in_row_exceeded && !measured.clock_stood)
       return {Reason::kMissedCycles, -1, static_cast<double>(loop.missed_in_row), 0};
-    if (loop.phase_budget_exceeded)
+    if (active() && loop.phase_budget_exceeded)
       return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(loop.broken_in_row), 0};
     for (int i = 0; i < N; ++i) {
       const bus::DriveState state = measured.drive[static_cast<std::size_t>(i)];
-      if (state != bus::DriveState::kEnabled) return {Reason::kDriveFault, i, static_cast<double>(state), 0};
+      if (!MayBe(state)) return {Reason::kDriveFault, i, static_cast<double>(state), 0};
     }
+    const bool force_told = !limits_.TooOld(measured.wrench_age);
     // A law that tracks the measured force presses blindly without it; one that can do without says so by its
     // source.
-    if (source_ == strategy::ForceSource::kKnown && limits_.TooOld(measured.wrench_age))
+    if (active() && source_ == strategy::ForceSource::kKnown && !force_told)
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
-    const double force = limits_.TooOld(measured.wrench_age) ? 0.0 : measured.force.norm();
+    const double force = force_told ? measured.force.norm() : 0.0;
     return limits_.Judge(measured.theta, measured.theta_dot, force, measured.OldestAge(),
                          measured.OldestJoint());
+  }
+
+  /// Of a drive that is asked to be enabled. The others already have torque while one of them takes its time;
+  /// one that has braked asks for a new start (supervisor.h).
+  bool MayBe(bus::DriveState state) const noexcept {
+    if (active() || supervisor_.cycles_enabling() > kCyclesToEnable)
+      return state == bus::DriveState::kEnabled;
+    return state != bus::DriveState::kFault;
   }
 
   mode::Observation Observe(const Measurement<N>& measured, bool all_answered, const LoopState& loop,
@@ -125,6 +134,7 @@ class Cycle final : public CycleBase {
 
   const strategy::Decision<N>& Control(const Measurement<N>& measured, const LoopState& loop) noexcept {
     if (!active()) strategy_.Settle(measured);
+    if (loop.gap) strategy_.NoteGap();
     if (loop.hold && active()) return strategy_.Repeat();
     return strategy_.Step(measured, time_s(), active(),
                           loop.degrade ? strategy::Effort::kReduced : strategy::Effort::kFull);
@@ -188,6 +198,7 @@ class Cycle final : public CycleBase {
     return CycleStatus::kRunning;
   }
 
+  static constexpr int kCyclesToEnable = 1000;  // a brake takes some 0.1 s to open
   static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
   static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
 

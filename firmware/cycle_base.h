@@ -22,6 +22,7 @@ struct LoopState {
   int missed_in_row = 0;
   bool phase_budget_exceeded = false;  // in too many cycles in a row
   int broken_in_row = 0;
+  bool gap = false;      // since the last SYNC more than a period has passed
   bool hold = false;     // after an overrun or a broken budget: repeat the last command
   bool degrade = false;  // leave out what can wait
 };

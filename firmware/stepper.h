@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/loop.h"
+#include "firmware/rt/clock.h"
 
 namespace reed {
 
@@ -23,7 +24,7 @@ class Stepper {
     now.cycle = result.cycles;
     now.time_ns = now_ns;
     now.timing = {};
-    now.timing.wake_ns = static_cast<std::int32_t>(wake_ns);
+    now.timing.wake_ns = rt::ShortNs(wake_ns);
     const CycleStatus status =
         cycle_.Run(static_cast<std::uint32_t>(result.cycles), rx_deadline_ns, state, now);
     ++result.cycles;

@@ -20,11 +20,14 @@ class WallLoop {
   LoopResult Run(const std::atomic<bool>& stop) noexcept {
     const std::int64_t start_ns = clock_.NowNs();
     Silence silence(start_ns);
+    last_start_ns_ = start_ns;
     std::int64_t deadline_ns = start_ns + period_ns_;
     while (true) {
       clock_.SleepUntil(deadline_ns);
       const std::int64_t now_ns = clock_.NowNs();
       state_.stop_wanted = stop.load(std::memory_order_relaxed);
+      state_.gap = 2 * (now_ns - last_start_ns_) > 3 * period_ns_;
+      last_start_ns_ = now_ns;
       // The receive phase ends on its own budget: what comes later is taken with the next cycle's frames.
       const std::int64_t rx_deadline_ns = now_ns + options_.phases.budget_ns[0];
       result_.status = stepper_.Step(now_ns, now_ns - deadline_ns, rx_deadline_ns, state_, result_);
@@ -52,7 +55,7 @@ class WallLoop {
       stepper_.NoteTime(protect::Reason::kPhaseBudget, static_cast<double>(verdict.phase), phases_.history());
     state_.hold = verdict.hold_next;
     state_.degrade = verdict.degrade_next;
-    state_.phase_budget_exceeded = state_.phase_budget_exceeded || verdict.fault;
+    state_.phase_budget_exceeded = verdict.fault;
     state_.broken_in_row = phases_.in_row();
   }
 
@@ -82,6 +85,7 @@ class WallLoop {
   Stepper stepper_;
   rt::PhaseMonitor phases_;
   LoopState state_;
+  std::int64_t last_start_ns_ = 0;
   int row_before_ = 0;  // of missed points, without those of the last cycle
   LoopResult result_;
 };

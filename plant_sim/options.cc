@@ -1,6 +1,7 @@
 #include "plant_sim/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,6 +28,8 @@ Options ParseOptions(int argc, char** argv) {
   app.add_flag("!--no-lcm", options.lcm, "do not publish on the LCM network");
   try {
     app.parse(argc, argv);
+    if (!std::isfinite(options.duration_s))
+      throw CLI::ValidationError("--duration", "is not a finite number");
   } catch (const CLI::Success& help) {
     std::exit(app.exit(help));  // NOLINT(concurrency-mt-unsafe): one thread so far
   } catch (const CLI::ParseError& error) {

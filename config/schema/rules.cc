@@ -68,6 +68,14 @@ class Rules {
     Fail("control.law", "'" + s_.control.law + "' is unknown; allowed: " + list);
   }
 
+  /// A reading that saturates below the limit would never exceed it.
+  void ForceLimitIsMeasured() const {
+    if (s_.limits.contact_force_N >= s_.sensors.force_range_N)
+      Fail("limits.contact_force_N",
+           "rule contact_force_N < sensors.force_range_N: " + ToText(s_.limits.contact_force_N) +
+               " is not below " + ToShortText(s_.sensors.force_range_N) + " N, where the reading saturates");
+  }
+
   void AgesAreGraded() const {
     if (s_.limits.hold_age_cycles >= s_.limits.stop_age_cycles)
       Fail("limits.hold_age_cycles",
@@ -168,6 +176,7 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.StartInsideLimits();
   rules.BoxHoldsStartAndTruth();
   rules.LawIsKnown();
+  rules.ForceLimitIsMeasured();
   rules.AgesAreGraded();
   rules.ForceLoopIsStable();
   rules.NoChatter();

@@ -122,8 +122,7 @@ struct ControlConfig {
   double observer_gain = 80.0;             // K_o, 1/s
   bool observer = false;                   // subtract r in free motion
   bool nodal_compensation = true;
-  std::vector<double> p_initial;    // empty: the arm file's nominal values
-  double velocity_filter_hz = 0.0;  // extra first-order filter in the controller, 0: none
+  std::vector<double> p_initial;  // empty: the arm file's nominal values
 };
 
 /// [limits] the last gate before the bus.

@@ -122,7 +122,7 @@ void Fields(V& v, ControlConfig& c) {
   v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500}, "sliding surface (23), per joint");
   v.Number("Gamma_known", c.Gamma_known, {"1", 0, 1e4}, "adaptation gain of the known-force law (34)");
   v.Number("Gamma_unknown", c.Gamma_unknown, {"1", 0, 1e4}, "adaptation gain of the unknown-force law (39)");
-  v.Number("k_p", c.k_p, {"m/(s·N)", 0, 1}, "force loop, proportional (30)");
+  v.Number("k_p", c.k_p, {"m/(s·N)", 1e-6, 1}, "force loop, proportional (30)");
   v.Number("k_i", c.k_i, {"m/(s²·N)", 0, 100}, "force loop, integral (30); k_i < a_force k_p");
   v.Number("a_force", c.a_force, {"1/s", 1, 1e4}, "force loop filter");
   v.Number("normal_speed_limit_mps", c.normal_speed_limit_mps, {"m/s", 1e-4, 1},
@@ -149,8 +149,6 @@ void Fields(V& v, ControlConfig& c) {
   v.Boolean("nodal_compensation", c.nodal_compensation,
             "theta_d after nodal displacement (22); false: theta_d = plan");
   v.Numbers("p_initial", c.p_initial, {"1", -1e3, 1e3}, "start of p_hat; absent: the arm's p_nom");
-  v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 0, 1e4},
-           "extra first-order filter on the measured velocity; 0: none");
 }
 
 template <typename V>

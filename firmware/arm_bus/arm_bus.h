@@ -41,8 +41,8 @@ class ArmBus {
     std::int64_t wait_end_ns = std::min(deadline_ns, tap.time_ns + kOneWait_ns);
     for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
       const int count = transport_.Receive(received_, Missing(), wait_end_ns);
-      const std::int32_t at_ns = Offset(tap);  // one batch, one reading of the clock
-      const std::int64_t now_ns = tap.time_ns + at_ns;
+      const std::int64_t now_ns = rt::MonotonicClock{}.NowNs();  // one batch, one reading
+      const std::int32_t at_ns = rt::ShortNs(now_ns - tap.time_ns);
       if (count == 0) {
         const bool gave_up = now_ns < wait_end_ns;  // the transport itself: nothing can come any more
         if (wait_end_ns == deadline_ns || MissingJoints() == 0 || gave_up) break;
@@ -60,7 +60,7 @@ class ArmBus {
                    telemetry::Snapshot& tap) noexcept {
     bus::CommandMessage message{cycle_, request, {}};
     for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = tau[i];
-    Send(encoder_.Command(message), static_cast<std::int32_t>(at_ns), tap);
+    Send(encoder_.Command(message), rt::ShortNs(at_ns), tap);
   }
 
   const Measurement<N>& measurement() const noexcept { return measurement_; }
@@ -142,12 +142,7 @@ class ArmBus {
     if (!waited_for || late < 0 || late >= measurement_.wrench_age) return;
     measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
     measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
-    measurement_.wrench_saturated = wrench.saturated;
     measurement_.wrench_age = static_cast<int>(late);
-  }
-
-  static std::int32_t Offset(const telemetry::Snapshot& tap) noexcept {
-    return static_cast<std::int32_t>(rt::MonotonicClock{}.NowNs() - tap.time_ns);
   }
 
   bus::Transport& transport_;

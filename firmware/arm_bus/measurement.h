@@ -18,9 +18,8 @@ struct Measurement {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N, environment on robot, base axes, at the tool point
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m
   int wrench_age = kNever;                           // cycles
-  bool wrench_saturated = false;
-  bool foreign_controller = false;  // somebody else sends SYNC or COMMAND
-  bool clock_stood = false;         // says an answer of this cycle: the simulated arm's clock had stood still
+  bool foreign_controller = false;                   // somebody else sends SYNC or COMMAND
+  bool clock_stood = false;  // says an answer of this cycle: the simulated arm's clock had stood still
 
   static constexpr int kNever = 1'000'000;  // ages stop here
 

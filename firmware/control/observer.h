@@ -36,6 +36,10 @@ class MomentumObserver {
     return r_;
   }
 
+  /// Instead of Update() where more than one cycle has passed: nobody knows the rate of all of them, so
+  /// nothing is learnt of them.
+  void Skip(const Vec<N>& momentum) noexcept { predicted_ = momentum; }
+
   const Vec<N>& r() const noexcept { return r_; }
 
  private:

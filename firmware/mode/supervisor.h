@@ -35,12 +35,14 @@ class Supervisor {
     if (event != Event::kNone) cycles_in_mode_ = 0;
     if (mode_ == Mode::kReady) enabling_ = enabling_ || (start_wanted_ && seen.drives_ready && seen.settled);
     if (mode_ != Mode::kReady) enabling_ = false;
+    cycles_enabling_ = enabling_ ? cycles_enabling_ + 1 : 0;
     if (event == Event::kStop || event == Event::kTrip) start_wanted_ = false;  // a wish counts once
     return event;
   }
 
   Mode mode() const noexcept { return mode_; }
   bool enabling() const noexcept { return enabling_; }
+  int cycles_enabling() const noexcept { return cycles_enabling_; }
   int cycles_in_mode() const noexcept { return cycles_in_mode_; }
 
   bus::DriveRequest Request() const noexcept {
@@ -76,6 +78,7 @@ class Supervisor {
   bool enabling_ = false;
   int fresh_in_row_ = 0;
   int cycles_in_mode_ = 0;
+  int cycles_enabling_ = 0;  // for how long the drives have been asked
   Mode mode_ = Mode::kOff;
 };
 

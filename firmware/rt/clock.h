@@ -4,9 +4,11 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 
 namespace reed::rt {
 
@@ -17,6 +19,12 @@ concept Clock = requires(T clock, std::int64_t deadline_ns) {
   { clock.SleepUntil(deadline_ns) }
   noexcept->std::same_as<void>;  // returns at once when the deadline has passed
 };
+
+/// A duration as telemetry has it. What is longer than its 2.147 s reads as that, and never as less.
+constexpr std::int32_t ShortNs(std::int64_t duration_ns) noexcept {
+  using Limits = std::numeric_limits<std::int32_t>;
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(duration_ns, Limits::min(), Limits::max()));
+}
 
 class MonotonicClock {
  public:

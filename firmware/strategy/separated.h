@@ -109,8 +109,13 @@ class Separated {
   /// Instead of Step(), after a cycle that came too late: what the last one decided.
   const Decision<N>& Repeat() noexcept {
     decision_.force.latched_now = false;
+    decision_.collision = {};
+    gap_ = true;
     return decision_;
   }
+
+  /// To be told before Step() that the last one is more than a period ago.
+  void NoteGap() noexcept { gap_ = true; }
 
   /// While the arm stands still and free: the force sensor's zero, the observer's start, nothing learnt.
   void Settle(const Measurement<N>& measured) noexcept {
@@ -201,7 +206,11 @@ class Separated {
     // The measured speed is filtered in the drive, so the known rate goes through the same filter: else every
     // change of the own torque would look like a force from outside.
     rate_ += rate_share_ * (measured.torque + m.free_rate - friction - rate_);
-    observer_.Update(m.momentum, rate_);  // (47)
+    if (gap_)
+      observer_.Skip(m.momentum);
+    else
+      observer_.Update(m.momentum, rate_);  // (47)
+    gap_ = false;
   }
 
   static constexpr double kObserverPace = 0.3;  // of the force loop while r, 1/K_o late, is all it has
@@ -228,6 +237,7 @@ class Separated {
   model::Vec<N> nominal_viscous_;
   double rate_share_;                           // of the drives' velocity filter, per cycle
   model::Vec<N> rate_ = model::Vec<N>::Zero();  // known part of the momentum's rate, filtered, N·m
+  bool gap_ = false;                            // between the last observation and the next
 
   model::Kinematics<N> kin_, plan_kin_;
   model::Regressor<N, P> regressor_;

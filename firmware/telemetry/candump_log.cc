@@ -28,7 +28,7 @@ std::string OneWord(std::string name) {
 }  // namespace
 
 CandumpLog::CandumpLog(const std::string& path, const std::string& interface)
-    : interface_(OneWord(interface)), stream_(Open(path)), file_(stream_.get(), path) {}
+    : interface_(OneWord(interface)), stream_(Open(path)), file_(stream_.get(), path, buffer_) {}
 
 void CandumpLog::Write(const bus::Frame& frame, std::int64_t utime) {
   if (!file_.good()) {

@@ -28,6 +28,7 @@ class CandumpLog {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::string interface_;
+  RecordBuffer buffer_ = MakeRecordBuffer();
   std::unique_ptr<std::FILE, Close> stream_;
   RecordFile file_;
 };

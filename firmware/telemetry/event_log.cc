@@ -19,7 +19,8 @@ lcm_eventlog_t* Open(const std::string& path) {
 
 }  // namespace
 
-EventLog::EventLog(const std::string& path) : log_(Open(path)), file_(log_ ? log_->f : nullptr, path) {}
+EventLog::EventLog(const std::string& path)
+    : log_(Open(path)), file_(log_ ? log_->f : nullptr, path, buffer_) {}
 
 void EventLog::Write(const char* channel, Bytes message, std::int64_t utime) {
   if (!file_.good()) {

@@ -27,6 +27,7 @@ class EventLog {
   struct Close {
     void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
   };
+  RecordBuffer buffer_ = MakeRecordBuffer();
   std::unique_ptr<lcm_eventlog_t, Close> log_;
   RecordFile file_;
 };

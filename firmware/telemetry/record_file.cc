@@ -16,10 +16,12 @@ constexpr std::int64_t kFlushRecords = 512;
 constexpr std::size_t kBufferBytes = kFlushRecords * 2048;
 }  // namespace
 
-RecordFile::RecordFile(std::FILE* file, const std::string& path) : file_(file) {
+RecordBuffer MakeRecordBuffer() { return std::make_unique<char[]>(kBufferBytes); }
+
+RecordFile::RecordFile(std::FILE* file, const std::string& path, const RecordBuffer& buffer) : file_(file) {
   if (file_ == nullptr) return;
   report_.name = path;
-  std::setvbuf(file_, nullptr, _IOFBF, kBufferBytes);
+  std::setvbuf(file_, buffer.get(), _IOFBF, kBufferBytes);  // without a buffer the size counts for nothing
 }
 
 void RecordFile::Count(bool taken) {

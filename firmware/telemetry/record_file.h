@@ -5,16 +5,21 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 
 #include "firmware/telemetry/sink_report.h"
 
 namespace reed::telemetry {
 
+/// What stdio collects in; to outlive the file.
+using RecordBuffer = std::unique_ptr<char[]>;
+RecordBuffer MakeRecordBuffer();
+
 class RecordFile {
  public:
-  /// Watches over `file` (opened by somebody else, nothing written yet, not owned); nullptr: everything is
-  /// ignored.
-  RecordFile(std::FILE* file, const std::string& path);
+  /// Watches over `file` (opened by somebody else, nothing written yet, not owned), which gets this buffer;
+  /// nullptr: everything is ignored.
+  RecordFile(std::FILE* file, const std::string& path, const RecordBuffer& buffer);
 
   /// True while records may be written; after an error the caller only counts them.
   bool good() const noexcept { return file_ != nullptr && report_.problem.empty(); }

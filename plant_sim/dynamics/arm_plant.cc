@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kAbsurdSpeed = 1e3;  // rad/s of a joint or motor; arms of this class stay below 20
 
 std::vector<Brake> BuildBrakes(const ArmChain& chain) {
@@ -53,6 +55,7 @@ class ArmPlant::Impl {
     if (motor_angle_rad.size() != n)
       throw std::invalid_argument("ArmPlant::Reset: one angle per motor is needed");
     t_ = 0.0;
+    schedule_from_ = kNever;
     braked_ = false;
     sick_coordinate_ = -1;
     equations_.SetPayload(0.0);
@@ -75,8 +78,8 @@ class ArmPlant::Impl {
     OperateBrakes(braked);
     for (int i = 0; i < steps && sick_coordinate_ < 0; ++i) {
       TakePayload();
-      begin_.disturbance = disturbance_.Force(t_);
-      end_.disturbance = disturbance_.Force(t_ + h);
+      begin_.disturbance = disturbance_.Force(t_, t_ - schedule_from_);
+      end_.disturbance = disturbance_.Force(t_ + h, t_ + h - schedule_from_);
       integrator_.Step(equations_, begin_, end_, h, x_, x_dot_);
       t_ += h;
       if (braked_)
@@ -85,6 +88,8 @@ class ArmPlant::Impl {
     }
     UpdateTruth();
   }
+
+  void StartSchedule() { schedule_from_ = t_; }
 
   const Truth& truth() const { return truth_; }
   bool healthy() const { return sick_coordinate_ < 0; }
@@ -115,7 +120,7 @@ class ArmPlant::Impl {
   }
 
   void TakePayload() {
-    if (loaded_ || config_.payload_step_kg == 0.0 || t_ < config_.payload_step_s) return;
+    if (loaded_ || config_.payload_step_kg == 0.0 || t_ - schedule_from_ < config_.payload_step_s) return;
     equations_.SetPayload(config_.payload_step_kg);
     loaded_ = true;
   }
@@ -134,7 +139,7 @@ class ArmPlant::Impl {
     truth_.joint_angle_rad = x_.segment(n, n);
     truth_.tip_m = equations_.tool_position();
     truth_.tip_velocity_mps = equations_.tool_velocity();
-    truth_.contact_force_N = equations_.contact().force + disturbance_.Force(t_);
+    truth_.contact_force_N = equations_.contact().force + disturbance_.Force(t_, t_ - schedule_from_);
     truth_.normal_force_N = equations_.contact().normal_force;
     truth_.gap_m = equations_.contact().gap;
     truth_.kinetic_J = equations_.KineticEnergy();
@@ -153,6 +158,7 @@ class ArmPlant::Impl {
   Load begin_, end_;
   Truth truth_;
   double t_ = 0.0;
+  double schedule_from_ = kNever;  // in t_
   bool braked_ = false, loaded_ = false;
   int sick_coordinate_ = -1;
 };
@@ -163,6 +169,7 @@ void ArmPlant::Reset(const VectorXd& motor_angle_rad) { impl_->Reset(motor_angle
 void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {
   impl_->Advance(motor_torque_Nm, braked, dt_s);
 }
+void ArmPlant::StartSchedule() { impl_->StartSchedule(); }
 const Truth& ArmPlant::truth() const { return impl_->truth(); }
 bool ArmPlant::healthy() const { return impl_->healthy(); }
 std::string ArmPlant::ailment() const { return impl_->ailment(); }

@@ -36,6 +36,9 @@ class ArmPlant {
   /// of at most plant.max_step_s. No heap allocation after the constructor and one Reset.
   void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s);
 
+  /// From now on the scenario's payload and step of force count; before that neither comes.
+  void StartSchedule();
+
   const Truth& truth() const;
   /// False once a state is not finite or absurd; the caller brakes, says which state and when, and exits 3.
   bool healthy() const;

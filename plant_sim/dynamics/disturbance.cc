@@ -20,13 +20,13 @@ Disturbance::Disturbance(const DisturbanceConfig& config, std::int64_t seed) : c
   }
 }
 
-Eigen::Vector3d Disturbance::Force(double t_s) const {
+Eigen::Vector3d Disturbance::Force(double t_s, double schedule_s) const {
   Eigen::Vector3d force = config_.bias_N;
   for (const Sinusoid& s : sinusoids_) {
     const Eigen::Vector3d wave = (s.angular_frequency * t_s + s.phase.array()).sin();
     force += config_.amplitude_N.cwiseProduct(wave);
   }
-  if (config_.step_s >= 0.0 && t_s >= config_.step_s) force += config_.step_N;
+  if (config_.step_s >= 0.0 && schedule_s >= config_.step_s) force += config_.step_N;
   return force;
 }
 

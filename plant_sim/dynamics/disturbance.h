@@ -13,7 +13,8 @@ namespace reed::plant {
 class Disturbance {
  public:
   Disturbance(const DisturbanceConfig& config, std::int64_t seed);
-  Eigen::Vector3d Force(double t_s) const;  // N
+  /// N. schedule_s: what the step counts, negative before it begins to.
+  Eigen::Vector3d Force(double t_s, double schedule_s) const;
 
  private:
   struct Sinusoid {

@@ -15,6 +15,7 @@ class ArmBody {
   virtual ~ArmBody() = default;
   virtual void Reset(const Eigen::VectorXd& motor_angle_rad) = 0;
   virtual void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) = 0;
+  virtual void StartSchedule() = 0;
   virtual const Truth& truth() const = 0;
   virtual bool healthy() const = 0;
   virtual std::string ailment() const = 0;

@@ -14,6 +14,7 @@ class FlexibleArmBody final : public ArmBody {
   void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) override {
     plant_.Advance(motor_torque_Nm, braked, dt_s);
   }
+  void StartSchedule() override { plant_.StartSchedule(); }
   const Truth& truth() const override { return plant_.truth(); }
   bool healthy() const override { return plant_.healthy(); }
   std::string ailment() const override { return plant_.ailment(); }

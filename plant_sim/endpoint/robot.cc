@@ -127,7 +127,10 @@ PlantRecord Robot::Snapshot() const {
 void Robot::NoteDriveChange(bus::DriveState before) {
   const bus::DriveState now = drives_.state();
   if (now == before) return;
-  if (now == bus::DriveState::kEnabled) enabled_s_ = time_s_;
+  if (now == bus::DriveState::kEnabled) {
+    enabled_s_ = time_s_;
+    body_.StartSchedule();
+  }
   journal_.Note(PlantEvent::kDriveState, now, static_cast<double>(now), "drives %s -> %s at %.3f s",
                 Name(before), Name(now), time_s_);
   if (BrakesClosed(now) != BrakesClosed(before)) {

@@ -139,6 +139,8 @@ def test_a_scenario_with(defect, tmp_path):
     ("reference.legs.x.kind=hold", ["'x'", "0 ... 1"]),
     ("timing.rate_hz=20 kHz", ["timing.rate_hz", "expected a number", "Hz"]),
     ("control.law=magic", ["control.law", "separated"]),
+    ("sensors.force_range_N=50", ["limits.contact_force_N", "60 is not below 50 N", "saturates"]),
+    ("control.k_p=0", ["control.k_p", "1e-06"]),
     ("limits.hold_age_cycles=10", ["limits.hold_age_cycles", "hold_age_cycles < stop_age_cycles"]),
 ])
 def test_an_override_that_says(assignment, words):

@@ -47,6 +47,23 @@ TEST(MomentumObserver, WhatIsKnownIsNotObserved) {
   }
 }
 
+TEST(MomentumObserver, AGapTeachesNothing) {
+  MomentumObserver<1> observer(kK_o, kT);
+  observer.Reset(Vec<1>::Zero());
+  double p = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    const bool gap = k == 300;  // five cycles at once
+    p += (gap ? 5.0 : 1.0) * kT * kStep;
+    if (gap)
+      observer.Skip(Vec<1>::Constant(p));
+    else
+      observer.Update(Vec<1>::Constant(p), Vec<1>::Zero());
+    if (k > 200) {
+      EXPECT_NEAR(observer.r()[0], kStep, 1e-6) << k;
+    }
+  }
+}
+
 TEST(MomentumObserver, StartsFromAMovingArmWithoutADisturbance) {
   MomentumObserver<2> observer(kK_o, kT);
   observer.Reset(Vec<2>(3.0, -1.0));

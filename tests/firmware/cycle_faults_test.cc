@@ -176,6 +176,43 @@ TEST(Cycle, AnAbsurdPositionOrSpeedIsAFaultInTheSameCycle) {
   }
 }
 
+/// Until the controller asks the drives to be enabled and all have done so but one, whose brake stays closed.
+void EnableAllButOne(SilRig& rig, Rewriter& rewriter) {
+  rewriter.change = [](bus::JointStateMessage& message) {
+    if (message.state == bus::DriveState::kEnabled) message.state = bus::DriveState::kReady;
+  };
+  for (int i = 0; i < 200 && rig.drives().state() != bus::DriveState::kEnabled; ++i) rig.Run();
+  for (int i = 0; i < 10; ++i) rig.Run();
+  ASSERT_EQ(rig.drives().state(), bus::DriveState::kEnabled);
+  ASSERT_EQ(rig.mode(), Mode::kReady);
+  ASSERT_FALSE(rig.TorqueIsZero());
+}
+
+TEST(Cycle, ADriveThatDoesNotGetEnabledIsWaitedForForASecond) {
+  SilRig rig(PressKnown());
+  Rewriter rewriter(rig);
+  EnableAllButOne(rig, rewriter);
+  int waited = 0;
+  for (; waited < 2000 && rig.mode() == Mode::kReady; ++waited) rig.Run();
+  EXPECT_NEAR(waited, 1000, 15);
+  ExpectFault(rig, Reason::kDriveFault);
+}
+
+TEST(Cycle, WhileTheDrivesAreBeingEnabledTheLimitsHoldAlready) {
+  const std::pair<std::function<void(bus::JointStateMessage&)>, Reason> wrong[] = {
+      {[](bus::JointStateMessage& m) { m.position_rad = 3.0; }, Reason::kJointPosition},
+      {[](bus::JointStateMessage& m) { m.velocity_radps = -30.0; }, Reason::kJointSpeed},
+      {[](bus::JointStateMessage& m) { m.state = bus::DriveState::kFault; }, Reason::kDriveFault}};
+  for (const auto& [change, reason] : wrong) {
+    SilRig rig(PressKnown());
+    Rewriter rewriter(rig);
+    EnableAllButOne(rig, rewriter);
+    rewriter.change = change;
+    rig.Run();
+    ExpectFault(rig, reason);
+  }
+}
+
 TEST(Cycle, AMeasurementThatIsNoNumberIsNeverUsed) {
   SilRig rig(PressKnown());
   Rewriter rewriter(rig);

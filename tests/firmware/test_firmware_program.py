@@ -36,8 +36,9 @@ def end(process, sig=signal.SIGINT):
 
 
 def await_controller(plant):
-    """Until the plant has heard a SYNC."""
-    assert "controller present" in plant.stdout.readline()
+    """Until the plant has heard the SYNC of a new controller."""
+    while "SYNC " not in (line := plant.stdout.readline()):
+        assert line, "the plant has ended"
 
 
 @pytest.fixture
@@ -109,15 +110,20 @@ def test_a_bus_on_which_nobody_answers_is_lost_and_exit_3():
 
 
 def test_a_second_firmware_on_the_same_bus_is_refused_and_the_first_goes_on(plant):
+    """Unless the machine holds the first one up while the second listens: then both hear of each other, stop, and it is
+    tried again."""
     arm = plant(43305, "--clock", "wall")
-    first = start(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
-    await_controller(arm)
-    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
+    for _ in range(5):
+        first = start(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
+        await_controller(arm)
+        status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43305), "--no-lcm")
+        first_goes_on = first.poll() is None
+        first_status, out, _ = end(first)
+        if status != 1:
+            break
     assert status == 3
     assert error.splitlines()[-1].startswith("reed_firmware: another controller") and "43305" in error, error
-    assert first.poll() is None
-    status, out, _ = end(first)
-    assert status == 0 and "done: " in out
+    assert first_goes_on and first_status == 0 and "done: " in out
 
 
 @pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM])

@@ -151,13 +151,13 @@ TEST(Disturbance, IsSeededAndMadeOfItsParts) {
   config.step_N = {0.0, 0.0, -7.0};
   config.step_s = 1.0;
   const Disturbance a(config, 7), same(config, 7), other(config, 8);
-  EXPECT_EQ(a.Force(0.3), same.Force(0.3));
-  EXPECT_GT((a.Force(0.3) - other.Force(0.3)).norm(), 1e-3);
+  EXPECT_EQ(a.Force(0.3, 0.3), same.Force(0.3, 0.3));
+  EXPECT_GT((a.Force(0.3, 0.3) - other.Force(0.3, 0.3)).norm(), 1e-3);
   // Both sinusoids repeat after 2 s; the step is all that differs.
-  EXPECT_LT((a.Force(2.3) - a.Force(0.3) - config.step_N).norm(), 1e-12);
+  EXPECT_LT((a.Force(2.3, 1.0) - a.Force(0.3, 0.3) - config.step_N).norm(), 1e-12);
   double mean = 0.0, square = 0.0;
   for (int i = 0; i < 1000; ++i) {
-    const double x = a.Force(i * 1e-3 * 0.999).x() - 1.0;
+    const double x = a.Force(i * 1e-3 * 0.999, -1.0).x() - 1.0;
     mean += x / 1000.0;
     square += x * x / 1000.0;
   }
@@ -171,6 +171,8 @@ TEST(Disturbance, PushesTheArm) {
   scene.disturbance.step_s = 0.05;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
+  for (int i = 0; i < 100; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
+  plant.StartSchedule();
   const double before = plant.truth().tip_m.y();
   for (int i = 0; i < 40; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
   EXPECT_NEAR(plant.truth().tip_m.y(), before, 1e-4);

@@ -34,6 +34,8 @@ TEST(ArmPlant, EqualRunsAreEqualBitForBit) {
   a.Reset(test::MidPose());
   for (int i = 0; i < 50; ++i) b.Advance(Torque(i), false, 1e-3);  // a past does not matter
   b.Reset(test::MidPose());
+  a.StartSchedule();
+  b.StartSchedule();
   for (int i = 0; i < 300; ++i) {
     a.Advance(Torque(i), i > 250, 1e-3);
     b.Advance(Torque(i), i > 250, 1e-3);
@@ -46,6 +48,7 @@ TEST(ArmPlant, EqualRunsAreEqualBitForBit) {
 TEST(ArmPlant, AdvanceStaysOffTheHeap) {
   ArmPlant plant(Pressing());
   plant.Reset(test::MidPose());
+  plant.StartSchedule();
   const VectorXd torque = Torque(30);
   const test::NoAlloc guard("ArmPlant::Advance");
   for (int i = 0; i < 100; ++i) plant.Advance(torque, i > 60, 1e-3);
@@ -84,6 +87,8 @@ TEST(ArmPlant, PayloadComesWhenItShallAndWeighsWhatItShall) {
   scene.plant.payload_step_s = 0.1;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
+  for (int i = 0; i < 150; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
+  plant.StartSchedule();
   const double before = plant.truth().potential_J, height = plant.truth().tip_m.z();
   for (int i = 0; i < 99; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
   EXPECT_NEAR(plant.truth().potential_J, before, 0.05);

@@ -37,6 +37,7 @@ class RotorBody final : public ArmBody {
     truth_.t_s += dt_s;
     longest_step_s = std::max(longest_step_s, dt_s);
   }
+  void StartSchedule() override { schedule_from_s = truth_.t_s; }
   const Truth& truth() const override { return truth_; }
   bool healthy() const override { return truth_.t_s < sick_from_s; }
   std::string ailment() const override { return healthy() ? "" : "motor 1 speed is not finite at 0.005 s"; }
@@ -44,6 +45,7 @@ class RotorBody final : public ArmBody {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   double sick_from_s = 1e9;
   double longest_step_s = 0.0;
+  double schedule_from_s = -1.0;
   int resets = 0;
 
  private:

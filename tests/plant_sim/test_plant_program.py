@@ -98,6 +98,7 @@ def run(*arguments):
     (["--config", "press_known", "--bus", "socketcan:no_such0"], ["no_such0"]),
     (["--config", "press_known", "--arm", "a99"], ["a99", "a5"]),
     (["--config", "press_known", "--set", "plant.max_step_s=nan"], ["plant.max_step_s", "finite"]),
+    (["--config", "press_known", "--duration", "nan"], ["--duration", "finite"]),
     (["--config", "press_known", "--bus", f"udp:{GROUP}:43201", "--log", "/no/such/folder/x.lcmlog"],
      ["/no/such/folder/x.lcmlog", "No such file"]),
 ])

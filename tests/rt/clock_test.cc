@@ -19,6 +19,13 @@ TEST(MonotonicClock, NeverWakesBeforeTheDeadline) {
   }
 }
 
+TEST(ShortNs, WhatDoesNotFitReadsAsTheLongestThatDoes) {
+  EXPECT_EQ(ShortNs(1'234), 1'234);
+  EXPECT_EQ(ShortNs(-5), -5);
+  EXPECT_EQ(ShortNs(3'000'000'000), 2'147'483'647);
+  EXPECT_EQ(ShortNs(-3'000'000'000), -2'147'483'648);
+}
+
 TEST(MonotonicClock, ASignalDoesNotEndTheSleep) {
   struct sigaction action {};
   action.sa_handler = [](int) {};  // without SA_RESTART: system calls come back with EINTR

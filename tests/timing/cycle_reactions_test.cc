@@ -34,6 +34,21 @@ TEST(CycleReactions, HoldRepeatsTheLastCommandAndTheNextCycleComputesAgain) {
   EXPECT_NE(rig.snapshot().control.tau, before.control.tau);
 }
 
+TEST(CycleReactions, TheObserverLearnsNothingAcrossAHeldCycleOrAGap) {
+  LoopState hold, gap;
+  hold.hold = true;
+  gap.gap = true;
+  for (const LoopState& state : {hold, gap}) {
+    test::SilRig rig(Pressing());
+    ASSERT_TRUE(rig.RunActive(0.2));  // the path is at full speed
+    const telemetry::Snapshot before = StepWith(rig, state);
+    if (state.hold) rig.Run();
+    EXPECT_EQ(rig.snapshot().control.observer, before.control.observer);
+    rig.Run();
+    EXPECT_NE(rig.snapshot().control.observer, before.control.observer);
+  }
+}
+
 TEST(CycleReactions, DegradeStopsLearningAndKeepsControlling) {
   test::SilRig rig(Pressing());
   ASSERT_TRUE(rig.RunActive(0.3));

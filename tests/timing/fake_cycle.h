@@ -34,7 +34,7 @@ class FakeCycle final : public CycleBase {
     snapshot.timing.tx_ns = static_cast<std::int32_t>(now.tx);
     snapshot.timing.clock_stood = now.clock_stood;
     snapshot.bus.frames_rx = silent ? 0 : cycle;
-    if (loop.missed_in_row_exceeded || loop.phase_budget_exceeded) {
+    if (active && (loop.missed_in_row_exceeded || loop.phase_budget_exceeded)) {
       stopped_at = static_cast<int>(cycle);
       return CycleStatus::kFinished;
     }
@@ -46,6 +46,7 @@ class FakeCycle final : public CycleBase {
   std::vector<std::int64_t> started_ns, rx_deadline;
   std::vector<LoopState> seen;
   bool silent = false;
+  bool active = true;  // otherwise nothing stops it
   int stopped_at = -1;
 
  private:

@@ -93,5 +93,16 @@ TEST(PhaseBudget, FaultComesAfterSoManyInARowAndNotBefore) {
   EXPECT_EQ(strict.cycle.stopped_at, 7) << "the cycle after the third";
 }
 
+/// A controller that waits for its arm breaks the receive budget all the time.
+TEST(PhaseBudget, AFaultOfATimeInWhichNothingWasActiveIsForgotten) {
+  Rig rig(12);
+  rig.options.phases.action = rt::PhaseAction::kFault;
+  rig.options.phases.max_in_row = 2;
+  rig.cycle.active = false;
+  SlowCompute(rig);
+  rig.Run();
+  for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(rig.cycle.seen[k].phase_budget_exceeded, k == 7) << k;
+}
+
 }  // namespace
 }  // namespace reed

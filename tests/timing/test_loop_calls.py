@@ -44,7 +44,7 @@ def test_a_whole_run_makes_only_the_named_system_calls_asks_no_heap_and_faults_n
     assert counted(done, "cycles") > 50
     assert counted(done, "heap allocations") == 0
     assert counted(done, "page faults") == 0
-    assert counted(done, "involuntary switches") >= 0, "counted by the kernel, and decided by the machine"
+    assert "involuntary switches" in done.stdout
 
 
 @pytest.mark.parametrize("clock, port", [("lockstep", 46212), ("wall", 46214)])

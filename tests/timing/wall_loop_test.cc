@@ -178,5 +178,12 @@ TEST(LoopOptions, FollowTheScenario) {
   EXPECT_EQ(options.phases.max_in_row, 7);
 }
 
+TEST(WallLoop, ACycleKnowsThatMoreThanAPeriodHasPassed) {
+  Rig rig(12);
+  rig.StallAt5(3 * kMs);
+  rig.Run();
+  for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(rig.cycle.seen[k].gap, k == 6) << k;
+}
+
 }  // namespace
 }  // namespace reed

@@ -1,5 +1,5 @@
 """Stands in for reed_firmware and reed_plant_sim: same options, same exit statuses, a synthetic log. What it does comes from
-REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), complain, refuse, die or endless."""
+REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), complain, refuse, die, endless or late (a plant)."""
 
 import argparse
 import os
@@ -29,7 +29,12 @@ def main() -> int:
         return 2
     if behaviour == "complain":
         print(f"{Path(sys.argv[0]).name}: SCHED_FIFO 80 not granted; fix: rtprio 80", file=sys.stderr)
+    if behaviour == "late":
+        time.sleep(0.5)
+    if name == "plant":
+        print("synthetic arm: waiting for SYNC", flush=True)
     if name == "firmware":
+        (Path(options.log).parent / "plant_had_said").write_text((Path(options.log).parent / "plant.txt").read_text())
         hear_the_plant(Path(options.log).parent)
     write_own_log(name, Path(options.log), options.clock)
     if behaviour == "die":

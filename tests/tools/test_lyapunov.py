@@ -70,6 +70,11 @@ def test_parts_of_parameters_and_force_are_those_of_42():
     assert book.predicted[0] == pytest.approx(-4e-3 * 0.25)
 
 
+def test_a_run_of_a_few_cycles_has_as_many_differences():
+    book = lyapunov.of_run(*run("known", "separated", s=constant([0.1, -0.2, 0.3, 0.05, -0.1], 6)))
+    assert book.seen.shape == book.t.shape == (6,)
+
+
 def test_the_papers_law_is_weighed_with_the_papers_gains():
     p_hat = constant(ARM["p_true"], 50)
     p_hat[:, 0] -= 0.3

@@ -102,6 +102,11 @@ def test_what_the_machine_refused_is_told_with_its_fix_beside_the_result(reed, t
     assert f"{program}: SCHED_FIFO 80 not granted; fix: rtprio 80" in done.stdout.splitlines()
 
 
+def test_the_firmware_starts_when_the_plant_hears_the_bus(reed, tmp_path):
+    assert reed("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_PLANT="late").returncode in (0, 1)
+    assert "waiting for SYNC" in (tmp_path / "plant_had_said").read_text()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp_path, number):
     process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
@@ -122,6 +127,23 @@ def test_a_bus_in_use_by_another_run_is_refused(reed, tmp_path):
     finally:
         first.send_signal(signal.SIGINT)
         first.communicate(timeout=60)
+
+
+def test_another_users_lock_file_is_used_if_it_can_be_read_and_named_if_not(tmp_path, monkeypatch):
+    monkeypatch.setattr(bus_choice.tempfile, "gettempdir", lambda: str(tmp_path))
+    with bus_choice.held("udp:x:1"):
+        pass
+    (lock,) = tmp_path.iterdir()
+    lock.chmod(0o444)
+    with bus_choice.held("udp:x:1"), pytest.raises(bus_choice.UsageError, match="another run"), bus_choice.held("udp:x:1"):
+        pass
+
+    def refuse(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(bus_choice.os, "open", refuse)
+    with pytest.raises(bus_choice.UsageError, match=f"{lock}: permission denied; .* remove it"), bus_choice.held("udp:x:1"):
+        pass
 
 
 def test_a_missing_multicast_route_is_told_with_its_fix(monkeypatch):

@@ -117,11 +117,19 @@ def require_multicast_route() -> None:
     raise UsageError(f"no multicast on this machine's loopback; as root: {' && '.join(ROUTE_FIX)}")
 
 
+def lock_file(path: Path) -> int:
+    """Opened to read only, and made only where it is missing: it may be another user's, whose bus is no less in use."""
+    try:
+        return os.open(path, os.O_RDONLY) if path.exists() else os.open(path, os.O_RDONLY | os.O_CREAT, 0o644)
+    except OSError as error:
+        raise UsageError(f"{path}: {error.strerror.lower()}; it tells runs of one bus apart, remove it") from None
+
+
 @contextmanager
 def held(bus: str):
     """Two runs on one bus would drive each other's arm: the second one is told so before it starts."""
     path = Path(tempfile.gettempdir(), f"reed-bus-{bus.replace(':', '-').replace('/', '-')}.lock")
-    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    descriptor = lock_file(path)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

@@ -14,6 +14,7 @@ from reed_tools.log_tail import LogTail
 
 POLL_S = 0.05
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
+START_PATIENCE_S = 10.0  # until the plant hears the bus
 STALL_S = 30.0           # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
 
@@ -65,8 +66,8 @@ def said(plan: Plan, name: str) -> list[str]:
 
 
 def complaints(plan: Plan, name: str) -> list[str]:
-    """What a program had to say against the machine or the run: the lines that begin with its own name."""
-    return [line for line in said(plan, name) if line.startswith("reed_")]
+    """What a program had to say against the machine or the run: the lines that begin with its own name, and another arm."""
+    return [line for line in said(plan, name) if line.startswith(("reed_", "another arm "))]
 
 
 def last_words(plan: Plan, name: str) -> str:
@@ -84,6 +85,15 @@ def stop(process: subprocess.Popen) -> int:
     return process.wait()
 
 
+def await_bus(plan: Plan, plant: subprocess.Popen, interrupted: list) -> None:
+    """Until the plant hears its bus: a SYNC that nobody hears is a cycle more in this run than in the next one."""
+    end = time.monotonic() + START_PATIENCE_S
+    while "waiting for SYNC" not in plan.output("plant").read_text(errors="replace"):
+        if plant.poll() is not None or interrupted or time.monotonic() > end:
+            return
+        time.sleep(0.005)
+
+
 def run_pair(plan: Plan, on_progress) -> Outcome:
     """Runs both programs to the end of the scenario. on_progress(mode, t_s) is called a few times per second."""
     outcome = Outcome()
@@ -91,6 +101,7 @@ def run_pair(plan: Plan, on_progress) -> Outcome:
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True))
                 for number in (signal.SIGINT, signal.SIGTERM)}
     plant = start("plant", plan.plant_sim, plan, [])
+    await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
     firmware = start("firmware", plan.firmware, plan, ["--enable", *frames])
     try:

@@ -49,7 +49,7 @@ def of_run(signals: Signals | None, effective: dict) -> Bookkeeping | None:
     parts, predicted = (unknown_force if unknown else known_force)(signals, rows, effective, law == "paper_corrected")
     parts = {"½ sᵀMs": kinetic, **parts}
     V, t = sum(parts.values()), signals.t[rows]
-    width = max(1, int(SMOOTH_S / max(t[1] - t[0], 1e-9)))
+    width = min(max(1, int(SMOOTH_S / max(t[1] - t[0], 1e-9))), len(t))
     seen = np.convolve(np.gradient(V, t), np.ones(width) / width, mode="same")
     return Bookkeeping(t, V, parts, predicted, seen, force_known=not unknown)
 

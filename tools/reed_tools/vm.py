@@ -15,6 +15,7 @@ from reed_tools.paths import ROOT
 
 VM = ROOT / "tools" / "vm" / "vm"
 BUS = "socketcan:vcan0"
+START_S, SLOWEST_CYCLE_S = 600, 0.05  # a run inside that takes longer hangs; it has its own watch for that
 
 
 def command(inner: list[str], time_limit_s: float | None = None, realtime: bool = False) -> list[str]:
@@ -32,7 +33,8 @@ def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
         json.dump(asdict(inner), file)
         file.flush()
         environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
-        inside = command([sys.executable, "-m", "reed_tools.hil", file.name], realtime=plan.clock == "wall")
+        inside = command([sys.executable, "-m", "reed_tools.hil", file.name], START_S + SLOWEST_CYCLE_S * plan.most_cycles,
+                         realtime=plan.clock == "wall")
         process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
         interrupted = follow(process, on_progress)
     if not outcome_file.exists():
