@@ -32,6 +32,7 @@ class Cycle final : public CycleBase {
     const std::int64_t received = clock_.NowNs();
 
     const Measurement<N>& measured = bus_.measurement();
+    CountIncomplete(measured);
     protect::Verdict verdict = Judge(measured, loop);  // estimate what it is worth
     const mode::Event event = supervisor_.Step(Observe(measured, all_answered, loop, verdict));  // decide
     if (event != mode::Event::kNone)
@@ -57,6 +58,7 @@ class Cycle final : public CycleBase {
 
   mode::Mode mode() const noexcept override { return supervisor_.mode(); }
   protect::Reason trip() const noexcept override { return trip_; }
+  TripPlace trip_place() const noexcept override { return trip_place_; }
 
  private:
   bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
@@ -88,6 +90,10 @@ class Cycle final : public CycleBase {
   protect::Verdict Judge(const Measurement<N>& measured, const LoopState& loop) const noexcept {
     using protect::Reason;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
+    if (measured.surplus_joint >= 0) return {Reason::kSurplusJoint, measured.surplus_joint, 0.0, 0};
+    if (cycles_incomplete_ * T_ > kPatience_s)
+      return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()),
+              0};
     if (supervisor_.Request() != bus::DriveRequest::kEnable) return {};
     // What was missed while the arm's own clock stood still did it no harm. Real drives never say so.
     if (active() && loop.missed_in_row_exceeded && !measured.clock_stood)
@@ -106,6 +112,14 @@ class Cycle final : public CycleBase {
     const double force = force_told ? measured.force.norm() : 0.0;
     return limits_.Judge(measured.theta, measured.theta_dot, force, measured.OldestAge(),
                          measured.OldestJoint());
+  }
+
+  /// An arm that shall start and of which some joints have never been heard will not start by waiting.
+  void CountIncomplete(const Measurement<N>& measured) noexcept {
+    const bool waits = supervisor_.mode() == mode::Mode::kOff && supervisor_.start_wanted();
+    const bool incomplete =
+        measured.OldestAge() == Measurement<N>::kNever && measured.YoungestAge() < Measurement<N>::kNever;
+    cycles_incomplete_ = waits && incomplete ? cycles_incomplete_ + 1 : 0;
   }
 
   /// Of a drive that is asked to be enabled. The others already have torque while one of them takes its time;
@@ -157,7 +171,10 @@ class Cycle final : public CycleBase {
   }
 
   void Note(protect::Reason reason, int joint, double value, telemetry::Snapshot& snapshot) noexcept {
-    if (protect::IsTrip(reason)) trip_ = reason;
+    if (protect::IsTrip(reason)) {
+      trip_ = reason;
+      trip_place_ = {joint, value};
+    }
     telemetry::Event event;
     event.mode = static_cast<std::int8_t>(supervisor_.mode());
     event.force_source = static_cast<std::int8_t>(source_);
@@ -198,6 +215,7 @@ class Cycle final : public CycleBase {
     return CycleStatus::kRunning;
   }
 
+  static constexpr double kPatience_s = 2.0;
   static constexpr int kCyclesToEnable = 1000;  // a brake takes some 0.1 s to open
   static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
   static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
@@ -212,6 +230,8 @@ class Cycle final : public CycleBase {
   double duration_s_;
   strategy::ForceSource source_ = strategy::ForceSource::kNone;
   protect::Reason trip_ = protect::Reason::kNone;
+  TripPlace trip_place_;
+  int cycles_incomplete_ = 0;  // off, although an arm is heard
   bool was_active_ = false;
 };
 

@@ -27,6 +27,12 @@ struct LoopState {
   bool degrade = false;  // leave out what can wait
 };
 
+/// Of a trip: the joint, 0-based, -1 for none in particular, and the value in the unit of its text.
+struct TripPlace {
+  int joint = -1;
+  double value = 0.0;
+};
+
 class CycleBase {
  public:
   virtual ~CycleBase() = default;
@@ -35,6 +41,7 @@ class CycleBase {
                           telemetry::Snapshot& snapshot) noexcept = 0;
   virtual mode::Mode mode() const noexcept = 0;
   virtual protect::Reason trip() const noexcept = 0;
+  virtual TripPlace trip_place() const noexcept { return {}; }
 };
 
 /// The cycle for this arm's number of joints (2 … 8) and parameters. Set-up only; throws std::runtime_error

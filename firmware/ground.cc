@@ -61,6 +61,12 @@ TimingConfig WithBudgets(const Scenario& scenario) {
   return timing;
 }
 
+void RefuseLockstepOnRealDrives(const bus::Transport& transport) {
+  if (!bus::OnlySimulated(transport))
+    throw std::runtime_error("--clock lockstep: only a simulated arm waits for its controller; on " +
+                             transport.kind() + ":" + transport.interface() + " use --clock wall");
+}
+
 void RefuseSecondController(bus::Transport& transport) {
   constexpr std::int64_t kListen_ns = 60'000'000;  // three periods of the slowest rate, 50 Hz
   const rt::MonotonicClock clock;
@@ -83,6 +89,7 @@ const std::atomic<bool>& StopFlag() {
   action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);  // a terminal that is closed stops the arm in order too
   return stop_wanted;
 }
 

@@ -18,6 +18,9 @@ void RefuseWireOverload(const Scenario& scenario);
 /// wire and the scenario does not allow it.
 TimingConfig WithBudgets(const Scenario& scenario);
 
+/// Drives do not wait for a controller; throws std::runtime_error where some may be at the bus's other end.
+void RefuseLockstepOnRealDrives(const bus::Transport& transport);
+
 /// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
 void RefuseSecondController(bus::Transport& transport);
 

@@ -106,11 +106,21 @@ void Complete(run_t& run, const Flight& flight) {
   run.wall_s = flight.result.wall_s;
 }
 
+/// " (joint 3: 12.5)", as far as there is something to say.
+std::string Place(const TripPlace& place) {
+  if (place.joint < 0 && place.value == 0.0) return "";
+  char value[32];
+  std::snprintf(value, sizeof value, "%g", place.value);
+  return place.joint < 0 ? std::string(" (") + value + ")"
+                         : " (joint " + std::to_string(place.joint + 1) + ": " + value + ")";
+}
+
 int Run(const Options& options) {
   const Scenario scenario = LoadScenario(options.config, options.load);
   RefuseWireOverload(scenario);
   const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
+  if (options.clock == ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
   const std::unique_ptr<CycleBase> cycle = MakeCycle(scenario, *transport, options.enable);
   RefuseSecondController(*transport);
 
@@ -149,8 +159,8 @@ int Run(const Options& options) {
     return 3;
   }
   if (cycle->trip() != protect::Reason::kNone) {
-    std::fprintf(stderr, "reed_firmware: the arm stopped: %s\n",
-                 protect::Text(static_cast<int>(cycle->trip())));
+    std::fprintf(stderr, "reed_firmware: the arm stopped: %s%s\n",
+                 protect::Text(static_cast<int>(cycle->trip())), Place(cycle->trip_place()).c_str());
     return 1;
   }
   return 0;

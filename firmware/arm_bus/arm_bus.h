@@ -29,6 +29,7 @@ class ArmBus {
     answered_ = 0;
     wrench_came_ = wrench_heard_ = false;
     measurement_.foreign_controller = measurement_.clock_stood = false;
+    measurement_.surplus_joint = -1;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
     Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), 0, tap);
@@ -103,7 +104,10 @@ class ArmBus {
   }
 
   void TakeJoint(const bus::Decoded& decoded) noexcept {
-    if (decoded.joint >= N) return;
+    if (decoded.joint >= N) {
+      if (decoded.reject == bus::Reject::kNone) measurement_.surplus_joint = decoded.joint;
+      return;
+    }
     const std::size_t i = static_cast<std::size_t>(decoded.joint);
     if (decoded.reject != bus::Reject::kNone) {
       answered_ |= 1u << i;  // it came, but says nothing that may be used: the value stays and ages

@@ -19,6 +19,7 @@ struct Measurement {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m
   int wrench_age = kNever;                           // cycles
   bool foreign_controller = false;                   // somebody else sends SYNC or COMMAND
+  int surplus_joint = -1;    // 0-based, of a state frame for a joint that the arm does not have
   bool clock_stood = false;  // says an answer of this cycle: the simulated arm's clock had stood still
 
   static constexpr int kNever = 1'000'000;  // ages stop here
@@ -30,6 +31,11 @@ struct Measurement {
     return oldest;
   }
   int OldestAge() const noexcept { return age[static_cast<std::size_t>(OldestJoint())]; }
+  int YoungestAge() const noexcept {
+    int youngest = kNever;
+    for (const int a : age) youngest = a < youngest ? a : youngest;
+    return youngest;
+  }
   bool AllDrives(bus::DriveState state) const noexcept {
     for (const bus::DriveState s : drive)
       if (s != state) return false;

@@ -41,6 +41,7 @@ class Supervisor {
   }
 
   Mode mode() const noexcept { return mode_; }
+  bool start_wanted() const noexcept { return start_wanted_; }
   bool enabling() const noexcept { return enabling_; }
   int cycles_enabling() const noexcept { return cycles_enabling_; }
   int cycles_in_mode() const noexcept { return cycles_in_mode_; }

@@ -50,7 +50,8 @@ std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
   const std::int64_t stood_ns = clock_.stood_ns();
   const std::int64_t stall_ns = stood_ns - stood_ns_;
   stood_ns_ = stood_ns;
-  if (stall_ns > 0 && syncs() > 0) {
+  const bool served = syncs() > 0 && now_ns - answered_ns_ - stall_ns < kControllerGone_ns;
+  if (stall_ns > 0 && served) {
     const double stall_s = static_cast<double>(stall_ns) * 1e-9;
     ++standstill_.stalls;
     standstill_.stood_s += stall_s;

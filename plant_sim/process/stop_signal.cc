@@ -16,6 +16,7 @@ void InstallStopSignals() {
   action.sa_handler = OnSignal;  // no SA_RESTART: a waiting system call returns and the loop sees the request
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);
 }
 
 bool StopRequested() noexcept { return g_stop != 0; }

@@ -132,6 +132,36 @@ TEST(Cycle, AnotherControllerBeforeTheStartKeepsTheBrakesClosed) {
   ExpectFault(rig, Reason::kForeignController);
 }
 
+TEST(Cycle, ADriveOfAJointThatTheArmDoesNotHaveIsAFault) {
+  for (const bool active : {false, true}) {
+    SilRig rig(PressKnown());
+    if (active) {
+      ASSERT_TRUE(rig.RunActive(0.1));
+    }
+    bus::Encoder sixth;
+    rig.injected = sixth.JointState(5, {});
+    rig.Run();
+    ExpectFault(rig, Reason::kSurplusJoint);
+    EXPECT_EQ(rig.trip_place().joint, 5);
+  }
+}
+
+TEST(Cycle, AnArmOfWhichAJointIsNeverHeardIsWaitedForForTwoSeconds) {
+  SilRig rig(PressKnown());
+  rig.on_the_way = [](std::uint32_t, bus::Frame& frame) { return !IsJoint(frame, kJoint); };
+  for (int k = 0; k < 1990; ++k) rig.Run();
+  EXPECT_EQ(rig.mode(), Mode::kOff);
+  for (int k = 0; k < 20; ++k) rig.Run();
+  EXPECT_EQ(rig.mode(), Mode::kFault);
+  EXPECT_EQ(rig.trip(), Reason::kStaleMeasurement);
+  EXPECT_EQ(rig.trip_place().joint, kJoint);
+
+  SilRig watching(PressKnown(), false);
+  watching.on_the_way = rig.on_the_way;
+  for (int k = 0; k < 2100; ++k) watching.Run();
+  EXPECT_EQ(watching.mode(), Mode::kOff) << "who only watches may go on";
+}
+
 /// The joint's frames again, with other contents but sound to every check.
 class Rewriter {
  public:

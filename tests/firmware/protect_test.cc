@@ -186,6 +186,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kStaleMeasurement, 36},
                                             {Reason::kDriveFault, 37},
                                             {Reason::kForeignController, 38},
+                                            {Reason::kSurplusJoint, 42},
                                             {Reason::kMissedCycles, 39},
                                             {Reason::kBusLost, 40},
                                             {Reason::kOperator, 41},
@@ -207,7 +208,7 @@ TEST(Reason, NumbersAreFixedForEver) {
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
   const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36,
-                            37, 38, 39, 40, 41, 43, 44, 96, 97, 98, 99, 100};
+                            37, 38, 39, 40, 41, 42, 43, 44, 96, 97, 98, 99, 100};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {

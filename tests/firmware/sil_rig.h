@@ -96,6 +96,7 @@ class SilRig {
 
   mode::Mode mode() const { return cycle_->mode(); }
   protect::Reason trip() const { return cycle_->trip(); }
+  TripPlace trip_place() const { return cycle_->trip_place(); }
   bool LimitActs(protect::Reason reason) const {
     return (snapshot_.control.limits & protect::LimitBit(reason)) != 0;
   }

@@ -126,7 +126,15 @@ def test_a_second_firmware_on_the_same_bus_is_refused_and_the_first_goes_on(plan
     assert first_goes_on and first_status == 0 and "done: " in out
 
 
-@pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM])
+def test_an_arm_with_other_joints_than_the_configurations_is_refused_before_its_brakes_open():
+    arm = start(PLANT, "--config", "joints6", "--bus", bus(43310), "--clock", "lockstep", "--no-lcm")
+    assert "waiting for SYNC" in arm.stdout.readline()
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43310), "--clock", "lockstep", "--no-lcm", "--enable")
+    assert status == 1 and "joint that this arm does not have" in error and "(joint 6" in error, error
+    assert "released" not in end(arm)[1]
+
+
+@pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_a_run_that_only_watches(plant, sig):
     arm = plant(43306, "--clock", "wall")
     process = start(FIRMWARE, "--config", "press_known", "--bus", bus(43306), "--no-lcm")

@@ -22,7 +22,7 @@ REFUSED = {
     "a negative damping": ("press_known", ["control.K_d=-1"], ["control.K_d", "-1", "0 ... 10000 N·m·s/rad"]),
     "a negative slope of the surface": ("press_known", ["control.Lambda=-20"], ["control.Lambda", "0 ... 500 1/s"]),
     "a negative adaptation gain": ("press_known", ["control.Gamma_known=-5"], ["control.Gamma_known", "0 ... "]),
-    "a negative force gain": ("press_known", ["control.k_p=-0.004"], ["control.k_p", "0 ... 1 m/(s·N)"]),
+    "a negative force gain": ("press_known", ["control.k_p=-0.004"], ["control.k_p", "1e-06 ... 1 m/(s·N)"]),
     "a damping that is no number": ("press_known", ["control.K_d=nan"], ["control.K_d", "finite"]),
     "an infinite observer": ("press_known", ["control.observer_gain=inf"], ["control.observer_gain", "finite"]),
     "a start outside its box": (

@@ -165,5 +165,6 @@ def write(folder: Path, checks: list[tuple[str, float]], duration_s: float = 3.0
     for log in logs.values():
         log.close()
     tables = "".join(f'[[checks]]\nname = "{name}"\nlimit = {limit}\n' for name, limit in checks)
-    (folder / "effective.toml").write_text(("checks = []\n" if not checks else "") + EFFECTIVE + tables)
+    (folder / "effective.toml").write_text(("checks = []\n" if not checks else "")
+                                          + EFFECTIVE.replace("duration_s = 3.0", f"duration_s = {duration_s}") + tables)
     return folder

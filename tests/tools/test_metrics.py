@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import synthetic_run as synthetic
 
-from reed_tools import checks, metrics, report_html, signals, summary
+from reed_tools import checks, metrics, report_html, result_table, signals, summary
 from reed_tools.errors import UsageError
 from reed_tools.evaluate import evaluate
-from reed_tools.telemetry_log import DIGEST_CHANNELS, events, load, merge
+from reed_tools.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
 
 
 def recorded(folder, wanted=(), **options):
@@ -126,10 +126,13 @@ LIMITS = {"impact_peak_N": 9.0, "torque_step_at_switch_percent": 1.25, "missed_c
 def test_every_check_has_its_value_and_can_fail(tmp_path):
     folder = recorded(tmp_path, LIMITS.items())
     for check in build(folder)["checks"]:
+        if check["name"] == "missing_s":
+            assert check["value"] == 0
+            continue
         assert check["value"] == pytest.approx(LIMITS[check["name"]], rel=1e-9, abs=1e-9), check["name"]
     tight = recorded(tmp_path / "tight", [(name, value - 0.01) for name, value in LIMITS.items()])
     result = build(tight)
-    assert result["verdict"] == "fail" and not any(check["ok"] for check in result["checks"])
+    assert result["verdict"] == "fail" and not any(check["ok"] for check in result["checks"] if check["name"] != "missing_s")
 
 
 def test_every_figure_has_a_value_on_a_complete_run(tmp_path):
@@ -142,13 +145,37 @@ def test_every_figure_has_a_value_on_a_complete_run(tmp_path):
 def test_a_fault_fails_a_run_that_asks_for_nothing(tmp_path):
     result = build(recorded(tmp_path, fault_at_s=1.5))
     assert result["verdict"] == "fail"
-    assert result["checks"] == [{"name": "faults", "limit": 0, "value": 1, "ok": False}]
+    assert result["checks"] == [{"name": "faults", "limit": 0, "value": 1, "ok": False},
+                                {"name": "missing_s", "limit": 0, "value": 1.5, "ok": False}]
     assert result["windows"][-1]["to_s"] == 1.5
 
 
 def test_unknown_check_names_the_allowed_ones():
     with pytest.raises(UsageError, match="not a figure; allowed: tangential_joint_rms_mrad_last_second, "):
         checks.require_known([{"name": "joint_error", "limit": 1.0}], where="x.toml")
+
+
+def test_a_run_that_was_cut_short_fails_and_claims_nothing_of_the_loop(tmp_path):
+    synthetic.write(tmp_path, [("heap_allocations", 0)])
+    firmware = tmp_path / "firmware.lcmlog"
+    firmware.write_bytes(firmware.read_bytes()[:-2_000_003])
+    merge([firmware, tmp_path / "plant.lcmlog"], tmp_path / "telemetry.lcmlog")
+    result = build(tmp_path)
+    by_name = {check["name"]: check for check in result["checks"]}
+    assert result["verdict"] == "fail" and by_name["missing_s"]["value"] > 0.1
+    assert by_name["heap_allocations"]["value"] is None and not by_name["heap_allocations"]["ok"]
+    assert set(result["loop"].values()) == {None} and result["wall_s"] is None
+    assert result_table.lines(result)
+
+
+def test_a_damaged_log_is_told_from_a_whole_one(tmp_path):
+    log = recorded(tmp_path) / "telemetry.lcmlog"
+    require_whole(log)
+    whole = log.read_bytes()
+    for damaged in (whole[:-100], whole[:100_000] + bytes(5000) + whole[105_000:], b"no log"):
+        log.write_bytes(damaged)
+        with pytest.raises(UsageError, match="is damaged"):
+            require_whole(log)
 
 
 def test_a_log_cut_in_the_middle_still_gives_figures(tmp_path):

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from reed_tools import bus_choice
+from reed_tools import bus_choice, cli
 
 BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
 
@@ -46,6 +46,34 @@ def test_bad_input_is_one_line_and_status_2(reed, argv, told):
 def test_a_refused_configuration_leaves_no_run_folder(reed, tmp_path):
     one_line(reed("run", "--bus", BUS, "--out", tmp_path / "run", "--duration", "-1"), 2)
     assert not (tmp_path / "run").exists()
+
+
+def test_somebody_elses_report_is_not_replaced(reed, tmp_path):
+    (tmp_path / "report.html").write_text("mine")
+    assert "report.html would be replaced" in one_line(reed("run", "--bus", BUS, "--out", tmp_path), 2)
+    assert (tmp_path / "report.html").read_text() == "mine"
+
+
+def test_a_damaged_run_folder_is_one_line_and_its_result_stays(reed, tmp_path):
+    assert reed("run", "--bus", BUS, "--out", tmp_path).returncode in (0, 1)
+    before = (tmp_path / "summary.json").read_text()
+    log = tmp_path / "telemetry.lcmlog"
+    whole = log.read_bytes()
+    log.write_bytes(whole[:-1000])
+    assert "is damaged" in one_line(reed("report", tmp_path), 2)
+    log.write_bytes(whole)
+    (tmp_path / "effective.toml").write_text("[scenario\n")
+    assert "effective.toml: " in one_line(reed("report", tmp_path), 2)
+    assert (tmp_path / "summary.json").read_text() == before
+
+
+def test_what_the_machine_refuses_is_one_line_and_status_3(monkeypatch, capsys):
+    def full(argv):
+        raise OSError(28, "No space left on device", "/full/telemetry.lcmlog")
+
+    monkeypatch.setattr(cli, "dispatch", full)
+    assert cli.main(["run"]) == 3
+    assert capsys.readouterr().err == "reed: /full/telemetry.lcmlog: no space left on device\n"
 
 
 def test_an_unknown_check_is_refused_with_the_known_ones(reed, tmp_path):
@@ -107,7 +135,7 @@ def test_the_firmware_starts_when_the_plant_hears_the_bus(reed, tmp_path):
     assert "waiting for SYNC" in (tmp_path / "plant_had_said").read_text()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp_path, number):
     process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
     wait_for(tmp_path / "plant.lcmlog", tmp_path / "firmware.lcmlog")

@@ -7,7 +7,7 @@ import numpy as np
 
 from reed_tools import metrics
 from reed_tools.errors import UsageError
-from reed_tools.signals import FAULT, SOURCES, Signals
+from reed_tools.signals import ACTIVE, FAULT, SOURCES, Signals
 from reed_tools.telemetry_log import Recording
 
 IMPACT_S = 0.3           # how long after first contact an impact may last
@@ -23,6 +23,7 @@ class RunData:
     torque_limits: list[float]
     boxes: list[tuple[float, float]]
     sigma_limits: tuple[float, float] = (1.0, 1.0)
+    duration_s: float = 0.0
 
     def last_second(self) -> dict:
         return metrics.figures(self.signals, metrics.last_second(self.signals, self.rate_hz))
@@ -180,6 +181,15 @@ def faults(run: RunData):
     return int(np.sum(np.diff((mode == FAULT).astype(int), prepend=0) == 1))
 
 
+def missing_s(run: RunData):
+    """seconds of the scenario's duration that the arm was not active: a run that was cut short"""
+    active = np.flatnonzero(run.recording.tables["REED_CONTROL"]["mode"] == ACTIVE)
+    cycle = run.recording.tables["REED_CONTROL"]["cycle"]
+    flown = int(cycle[active[-1]] - cycle[active[0]] + 1)
+    missing = round(run.duration_s * run.rate_hz) - flown
+    return missing / run.rate_hz if missing > 1 else 0.0
+
+
 def missed_cycles(run: RunData):
     """grid points that the loop slept through"""
     return int(run.recording.tables["REED_TIMING"]["missed"][-1])
@@ -197,17 +207,17 @@ def overruns(run: RunData):
 
 def heap_allocations(run: RunData):
     """calls of the malloc family on the loop's thread inside the real-time scope"""
-    return run.recording.run.heap_allocations
+    return run.recording.finished_run.heap_allocations
 
 
 def page_faults(run: RunData):
     """page faults on the loop's thread inside the real-time scope"""
-    return run.recording.run.page_faults
+    return run.recording.finished_run.page_faults
 
 
 def telemetry_dropped(run: RunData):
     """snapshots that found the telemetry ring full"""
-    return run.recording.run.telemetry_dropped
+    return run.recording.finished_run.telemetry_dropped
 
 
 def frames_lost(run: RunData):
@@ -226,9 +236,9 @@ FIGURES = {function.__name__: function for function in (
     tangential_tip_rms_mm_last_second, tip_rms_mm, force_rms_N_last_second, force_rms_percent_last_second,
     force_peak_N_last_second, impact_peak_N, contact_force_max_N, contact_force_max_percent_of_desired, contact_lost_ms,
     torque_peak_percent, torque_step_at_switch_percent, source_switch_cycles, parameters_outside_box,
-    estimate_drift_percent, estimate_drift_ratio, faults, missed_cycles, missed_cycles_in_row, overruns, heap_allocations, page_faults, telemetry_dropped, frames_lost, crc_errors)}
+    estimate_drift_percent, estimate_drift_ratio, faults, missing_s, missed_cycles, missed_cycles_in_row, overruns, heap_allocations, page_faults, telemetry_dropped, frames_lost, crc_errors)}
 
-ALWAYS = {"name": "faults", "limit": 0}  # a run that ended in a fault never passes, whatever the scenario asks
+ALWAYS = ("faults", "missing_s")  # must be 0: a run that ended in a fault or early never passes, whatever the scenario asks
 
 
 def require_known(entries: list[dict], where: str) -> None:
@@ -247,10 +257,9 @@ def value_of(name: str, run: RunData):
 
 
 def evaluate(entries: list[dict], run: RunData) -> list[dict]:
-    if not any(entry["name"] == "faults" for entry in entries):
-        entries = [*entries, ALWAYS]
+    asked = {entry["name"] for entry in entries}
     result = []
-    for entry in entries:
+    for entry in [*entries, *({"name": name, "limit": 0} for name in ALWAYS if name not in asked)]:
         value = value_of(entry["name"], run)
         result.append({"name": entry["name"], "limit": entry["limit"], "value": value,
                        "ok": value is not None and value <= entry["limit"]})

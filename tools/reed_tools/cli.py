@@ -5,7 +5,7 @@ import argparse
 import importlib
 import sys
 
-from reed_tools.errors import ReedError, UsageError
+from reed_tools.errors import ReedError, RunError, UsageError
 
 COMMANDS = {
     "run": ("run_command", "one hardware-in-the-loop run: figures, plots, report"),
@@ -46,6 +46,9 @@ def main(argv: list[str]) -> int:
         return 130
     except BrokenPipeError:
         return 0
+    except OSError as error:  # a disk that is full, a folder without rights: nothing of ours to mend
+        print(f"reed: {f'{error.filename}: ' if error.filename else ''}{(error.strerror or str(error)).lower()}", file=sys.stderr)
+        return RunError.exit_status
 
 
 def dispatch(argv: list[str]) -> int:

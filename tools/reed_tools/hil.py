@@ -99,7 +99,7 @@ def run_pair(plan: Plan, on_progress) -> Outcome:
     outcome = Outcome()
     interrupted = []
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True))
-                for number in (signal.SIGINT, signal.SIGTERM)}
+                for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     plant = start("plant", plan.plant_sim, plan, [])
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []

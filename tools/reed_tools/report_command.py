@@ -5,6 +5,7 @@ from pathlib import Path
 from reed_tools import result_table
 from reed_tools.errors import UsageError
 from reed_tools.evaluate import evaluate
+from reed_tools.telemetry_log import require_whole
 
 
 def add_arguments(parser) -> None:
@@ -16,6 +17,7 @@ def run(arguments) -> int:
     for name in ("effective.toml", "telemetry.lcmlog"):
         if not (folder / name).is_file():
             raise UsageError(f"{folder} is not a run folder: it has no {name}")
+    require_whole(folder / "telemetry.lcmlog")
     summary = evaluate(folder)
     result_table.show(summary)
     print(f"report  {folder / 'report.html'}")

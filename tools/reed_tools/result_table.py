@@ -53,6 +53,9 @@ def timing(summary: dict) -> Table:
     return table
 
 
+LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware tells when it ends
+
+
 def lines(summary: dict) -> list[str]:
     """What does not fit a table."""
     bus, loop, machine = summary["bus"], summary["loop"], summary.get("machine")
@@ -67,8 +70,8 @@ def lines(summary: dict) -> list[str]:
         *([f"stalls {machine['stalls']} of the machine, {1e3 * machine['stood_s']:.0f} ms in all, {machine['missed_cycles']} of the missed "
            "cycles: the arm's clock stood still"] if machine and machine["stalls"] else []),
         f"loop   {number(loop['heap_allocations'])} heap allocations, {number(loop['page_faults'])} page faults, "
-        f"{number(loop['telemetry_dropped'])} snapshots dropped; scheduler {loop['scheduler']}, "
-        f"memory {'locked' if loop['memory_locked'] else 'not locked'}",
+        f"{number(loop['telemetry_dropped'])} snapshots dropped; "
+        f"scheduler {loop['scheduler'] or 'unknown'}, memory {LOCKED[loop['memory_locked']]}",
         f"modes  " + " → ".join(f"{mode['mode']}/{mode['force_source']} {mode['t_s']:+.3f} s" for mode in summary["modes"]),
     ]
 

@@ -1,5 +1,6 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
+import re
 import shutil
 import tempfile
 import time
@@ -12,7 +13,8 @@ from reed_tools.telemetry_log import load, merge
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
-             "summary.json", "report.html")
+             "summary.json", "report.html", "trace.json", "force.png", "joint_error.png", "lyapunov.png", "parameters.png", "timing.png",
+             "tip_error.png", "torque.png")
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
@@ -58,7 +60,9 @@ def most_cycles(effective: dict) -> int:
 
 
 def make_folder(arguments, name: str) -> Path:
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{name}"
+    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}"
+    if not (folder / "effective.toml").exists() and (others := [own for own in OWN_FILES if (folder / own).exists()]):
+        raise UsageError(f"--out {folder}: is no run folder, and its {others[0]} would be replaced")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         clear(folder)

@@ -39,8 +39,10 @@ def write_effective(scenario: str, arm: str | None, entries: list[str], target: 
 
 
 def load(path: Path) -> dict:
-    with open(path, "rb") as file:
-        return tomllib.load(file)
+    try:
+        return tomllib.loads(path.read_text())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise UsageError(f"{path}: {error}") from None
 
 
 def parameter_boxes(effective: dict) -> list[tuple[float, float]]:

@@ -34,7 +34,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         **clock_figures(recording, rate_hz),
         "machine": machine(recording, clock),
         "timing_us": metrics.timing_us(recording, clock),
-        "loop": {name: getattr(run, name) if run else None for name in
+        "loop": {name: getattr(recording.finished_run, name, None) for name in
                  ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
         "modes": metrics.modes(recording, rate_hz),
         "windows": metrics.windows(signals, rate_hz),
@@ -47,7 +47,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
 
 def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
     return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
-                          scenario.parameter_boxes(effective), scenario.sigma_limits(effective))
+                          scenario.parameter_boxes(effective), scenario.sigma_limits(effective), effective["scenario"]["duration_s"])
 
 
 def bus(recording: Recording) -> dict:
@@ -66,7 +66,7 @@ def clock_figures(recording: Recording, rate_hz: float) -> dict:
     return {"clock": run.clock if run else None, "rate_hz": rate_hz, "cycles": count,
             "missed_cycles": int(timing["missed"][-1]) if some else None,
             "overruns": int(timing["overruns"][-1]) if some else None,
-            "wall_s": round(run.wall_s, 6) if run else None, "sim_s": round(count / rate_hz, 6)}
+            "wall_s": round(recording.finished_run.wall_s, 6) if recording.finished_run else None, "sim_s": round(count / rate_hz, 6)}
 
 
 def machine(recording: Recording, clock: str | None) -> dict | None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import lcm
 import numpy as np
 
-from reed_tools.errors import RunError
+from reed_tools.errors import RunError, UsageError
 from reed_tools.message_layout import decode_all
 from reed_tools.paths import use_message_types
 
@@ -19,6 +19,7 @@ DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLA
 TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
           "REED_PLANT": "plant_t", "REED_TIMING": "timing_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t"}
+EVENT_HEAD_BYTES = 28  # of an LCM log: sync word, number, time, two lengths
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
 
@@ -37,6 +38,11 @@ class Recording:
     def run(self):
         """The last REED_RUN: the one written at the end if the firmware got that far."""
         return self.singles["REED_RUN"][-1] if self.singles["REED_RUN"] else None
+
+    @property
+    def finished_run(self):
+        """What the firmware told of the loop when it ended; None if it never came to that."""
+        return self.run if self.run and self.run.finished else None
 
     def digest(self, clock: str) -> str:
         """SHA-256 over the SHA-256 of each channel's encoded messages in cycle order. The plant's truth belongs to it in
@@ -57,6 +63,17 @@ def events(path: Path):
                 yield HEAD.unpack_from(event.data)[0] if len(event.data) >= 24 else 0, event.channel, event.data
     finally:
         log.close()
+
+
+def require_whole(path: Path) -> None:
+    """A log that was cut or damaged reads as another run: liblcm passes over what it cannot read."""
+    log = lcm.EventLog(str(path), "r")
+    try:
+        read = sum(EVENT_HEAD_BYTES + len(event.channel) + len(event.data) for event in log)
+    finally:
+        log.close()
+    if read != path.stat().st_size:
+        raise UsageError(f"{path} is damaged: messages make up {read} of its {path.stat().st_size} bytes; nothing was changed")
 
 
 def merge(parts: list[Path], target: Path) -> None:
