@@ -125,7 +125,7 @@ class Cycle final : public CycleBase {
   /// Of a drive that is asked to be enabled. The others already have torque while one of them takes its time;
   /// one that has braked asks for a new start (supervisor.h).
   bool MayBe(bus::DriveState state) const noexcept {
-    if (active() || supervisor_.cycles_enabling() > kCyclesToEnable)
+    if (active() || supervisor_.cycles_enabling() * T_ > kTimeToEnable_s)
       return state == bus::DriveState::kEnabled;
     return state != bus::DriveState::kFault;
   }
@@ -216,9 +216,9 @@ class Cycle final : public CycleBase {
   }
 
   static constexpr double kPatience_s = 2.0;
-  static constexpr int kCyclesToEnable = 1000;  // a brake takes some 0.1 s to open
-  static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
-  static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
+  static constexpr double kTimeToEnable_s = 1.0;  // a brake takes some 0.1 s to open
+  static constexpr int kCyclesAfterStop = 5;      // the drives hear that they shall close the brakes
+  static constexpr int kCyclesAfterFault = 50;    // of recording after a fault
 
   rt::MonotonicClock clock_;
   model::ArmModel<N, P> arm_;

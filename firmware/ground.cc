@@ -89,7 +89,9 @@ const std::atomic<bool>& StopFlag() {
   action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGHUP, &action, nullptr);  // a terminal that is closed stops the arm in order too
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);  // a terminal that is closed stops the arm in order, but for nohup
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   return stop_wanted;
 }
 

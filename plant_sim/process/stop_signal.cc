@@ -16,7 +16,9 @@ void InstallStopSignals() {
   action.sa_handler = OnSignal;  // no SA_RESTART: a waiting system call returns and the loop sees the request
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGHUP, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup means that it goes on
 }
 
 bool StopRequested() noexcept { return g_stop != 0; }

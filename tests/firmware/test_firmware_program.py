@@ -143,6 +143,16 @@ def test_a_signal_ends_a_run_that_only_watches(plant, sig):
     assert status == 0 and "done: " in out
 
 
+def test_a_run_that_nohup_started_outlives_its_terminal(plant):
+    arm = plant(43311, "--clock", "wall")
+    process = start("nohup", FIRMWARE, "--config", "press_known", "--bus", bus(43311), "--no-lcm")
+    await_controller(arm)
+    process.send_signal(signal.SIGHUP)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(timeout=0.3)
+    assert end(process)[0] == 0
+
+
 def without_rights(*command):
     """The same program without the right to raise its priority or to lock memory."""
     dropped = "-sys_nice,-ipc_lock,-sys_resource"

@@ -95,7 +95,7 @@ def selected(campaign: Campaign, options: dict) -> list[int]:
             raise UsageError(f"--shard {options['shard']}: allowed: I/N with I from 1 to N")
         indices = indices[part - 1::parts]
     if not indices:
-        raise UsageError(f"no draw is selected: the campaign has {campaign.draws}, --from {first}")
+        raise UsageError(f"no draw is selected: the draws are 0 to {(options['draws'] or campaign.draws) - 1}, --from {first}")
     return indices
 
 

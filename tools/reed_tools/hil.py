@@ -85,6 +85,12 @@ def stop(process: subprocess.Popen) -> int:
     return process.wait()
 
 
+def stop_signals() -> list[int]:
+    """A closed terminal stops a run in order, too, unless it was started with nohup."""
+    hangup = [] if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN else [signal.SIGHUP]
+    return [signal.SIGINT, signal.SIGTERM, *hangup]
+
+
 def await_bus(plan: Plan, plant: subprocess.Popen, interrupted: list) -> None:
     """Until the plant hears its bus: a SYNC that nobody hears is a cycle more in this run than in the next one."""
     end = time.monotonic() + START_PATIENCE_S
@@ -98,8 +104,7 @@ def run_pair(plan: Plan, on_progress) -> Outcome:
     """Runs both programs to the end of the scenario. on_progress(mode, t_s) is called a few times per second."""
     outcome = Outcome()
     interrupted = []
-    handlers = {number: signal.signal(number, lambda *_: interrupted.append(True))
-                for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    handlers = {number: signal.signal(number, lambda *_: interrupted.append(True)) for number in stop_signals()}
     plant = start("plant", plan.plant_sim, plan, [])
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []

@@ -53,7 +53,7 @@ def follow(process: subprocess.Popen, on_progress) -> bool:
         interrupted.append(True)
         process.send_signal(signal.SIGINT)
 
-    handlers = {number: signal.signal(number, ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    handlers = {number: signal.signal(number, ask_to_stop) for number in hil.stop_signals()}
     try:
         for line in process.stdout:
             if line.startswith(hil.PROGRESS_MARK):
