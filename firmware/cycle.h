@@ -95,8 +95,10 @@ class Cycle final : public CycleBase {
       return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()),
               0};
     if (supervisor_.Request() != bus::DriveRequest::kEnable) return {};
-    // What was missed while the arm's own clock stood still did it no harm. Real drives never say so.
-    if (active() && loop.missed_in_row_exceeded && !measured.clock_stood)
+    // What was missed while the arm's own clock stood still did it no harm. Real drives never say so; a
+    // simulated arm may with its next answer, and one that stays silent stops by its age.
+    const bool told = !bus_.simulated() || measured.YoungestAge() == 0;
+    if (active() && loop.missed_in_row_exceeded && told && !measured.clock_stood)
       return {Reason::kMissedCycles, -1, static_cast<double>(loop.missed_in_row), 0};
     if (active() && loop.phase_budget_exceeded)
       return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(loop.broken_in_row), 0};

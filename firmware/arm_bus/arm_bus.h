@@ -68,6 +68,7 @@ class ArmBus {
   const bus::DecodeCounters& decode_counters() const noexcept { return decoder_.counters(); }
   const bus::TransportCounters& transport_counters() const noexcept { return transport_.counters(); }
   bool alive() const noexcept { return transport_.alive(); }
+  bool simulated() const noexcept { return simulated_; }
   std::int64_t late_frames() const noexcept { return late_; }
 
  private:

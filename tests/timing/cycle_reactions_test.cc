@@ -105,5 +105,22 @@ TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
   }
 }
 
+TEST(CycleReactions, TooManyMissesInARowWaitForASimulatedArmsAnswer) {
+  LoopState missed;
+  missed.missed_in_row_exceeded = true;
+  missed.missed_in_row = 42;
+  for (const bool stood : {false, true}) {
+    test::SilRig rig(Pressing());
+    ASSERT_TRUE(rig.RunActive(0.3));
+    rig.on_the_way = [](std::uint32_t, bus::Frame&) { return false; };  // the machine is away once more
+    rig.Run(missed);
+    EXPECT_EQ(rig.mode(), mode::Mode::kActive);
+    rig.on_the_way = nullptr;
+    if (stood) MarkTheNextAnswers(rig);
+    rig.Run(missed);
+    EXPECT_EQ(rig.mode(), stood ? mode::Mode::kActive : mode::Mode::kFault);
+  }
+}
+
 }  // namespace
 }  // namespace reed
