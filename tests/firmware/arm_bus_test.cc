@@ -179,14 +179,19 @@ class HeldUp final : public bus::Transport {
   int first_, last_;
 };
 
+/// A cycle that has a hundred seconds for its answers and begins so much later than now.
+bool ReceiveIn(ArmBus<kN>& bus, telemetry::Snapshot& tap, std::int64_t begins_in_ns = 0) {
+  tap.time_ns = bus::NowNs() + begins_in_ns;
+  bus.SendSync(0, tap);
+  return bus.Receive(tap.time_ns + 100 * bus::kNsPerSecond, tap);
+}
+
 TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
   HeldUp transport(wire_.controller, 1, 2);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = bus::NowNs();
-  bus.SendSync(0, tap_);
   PutAll(0);
   Put(Wrench(0, 5.0));
-  EXPECT_TRUE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
+  EXPECT_TRUE(ReceiveIn(bus, tap_));
   EXPECT_GE(bus::NowNs() - tap_.time_ns, bus::kNsPerSecond / 5);
   EXPECT_EQ(bus.measurement().wrench_age, 0);
 }
@@ -194,19 +199,16 @@ TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
 TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
   HeldUp transport(wire_.controller, 2, 100);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = bus::NowNs();
-  bus.SendSync(0, tap_);
   PutAll(0);
-  EXPECT_TRUE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
+  EXPECT_TRUE(ReceiveIn(bus, tap_));
   EXPECT_EQ(transport.waits, 2);
 }
 
 TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
   HeldUp transport(wire_.controller, 0, 0);
   ArmBus<kN> bus(transport);
-  tap_.time_ns = bus::NowNs() + bus::kNsPerSecond;  // so that no stall of the machine fills the wait
-  bus.SendSync(0, tap_);
-  EXPECT_FALSE(bus.Receive(tap_.time_ns + 100 * bus::kNsPerSecond, tap_));
+  EXPECT_FALSE(ReceiveIn(bus, tap_, bus::kNsPerSecond))
+      << "later, so that no stall of the machine fills the wait";
   EXPECT_EQ(transport.waits, 1);
 }
 

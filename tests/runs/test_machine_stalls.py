@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 
 import pytest
 
@@ -55,18 +56,29 @@ def test_a_core_that_is_taken_away_for_40_ms_is_counted_and_stops_nothing(stolen
     assert sum(event.code == CLOCK_STOOD for event in recording.singles["REED_PLANT_EVENT"]) >= 5
 
 
-def stop_for_60_ms(*switch) -> tuple[int, str, list[str]]:
-    """Stops a controller that is at work. Its exit code, its last complaint, and what the plant said of the machine."""
-    common = ["--config", "press_known", "--bus", BUS, "--clock", "wall", "--no-lcm"]
+@contextmanager
+def arm_at_work(clock: str, *settings, log: tuple[str, ...] = ()):
+    """(plant, firmware) by hand, from the moment the brakes are open until the end of the block."""
+    common = ["--config", "press_known", "--bus", BUS, "--clock", clock, "--no-lcm", *settings]
     programs = [subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *common], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)]
     plant = programs[0]
     try:
         assert "waiting for SYNC" in plant.stdout.readline()
-        firmware = subprocess.Popen([str(BUILD / "bin" / "reed_firmware"), *common, *switch, "--enable"], stdout=subprocess.DEVNULL,
+        firmware = subprocess.Popen([str(BUILD / "bin" / "reed_firmware"), *common, *log, "--enable"], stdout=subprocess.DEVNULL,
                                     stderr=subprocess.PIPE, text=True)
         programs.append(firmware)
         while "released" not in plant.stdout.readline():
             assert firmware.poll() is None
+        yield plant, firmware
+    finally:
+        for program in programs:
+            program.kill()
+            program.communicate()
+
+
+def stop_for_60_ms(*switch) -> tuple[int, str, list[str]]:
+    """Stops a controller that is at work. Its exit code, its last complaint, and what the plant said of the machine."""
+    with arm_at_work("wall", *switch) as (plant, firmware):
         time.sleep(0.2)
         firmware.send_signal(signal.SIGSTOP)
         time.sleep(0.06)
@@ -75,10 +87,6 @@ def stop_for_60_ms(*switch) -> tuple[int, str, list[str]]:
         plant.terminate()
         said = plant.communicate(timeout=30)[0]
         return firmware.returncode, (complaints or [""])[-1], [line for line in said.splitlines() if "machine was away" in line]
-    finally:
-        for program in programs:
-            program.kill()
-            program.communicate()
 
 
 @pytest.mark.parametrize("counts_misses", [True, False])
@@ -96,14 +104,8 @@ def test_a_controller_that_is_stopped_for_60_ms_is_not_excused(counts_misses):
 
 def digest_in_lockstep(log, hold_up: bool) -> tuple[str, float]:
     """Of a run whose plant is held up in the middle, and for how long it was; 0: the run was over before."""
-    common = ["--config", "press_known", "--bus", BUS, "--clock", "lockstep", "--no-lcm", "--set", "scenario.duration_s=10"]
-    plant = subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *common], stdout=subprocess.PIPE, text=True)
     held_s = 0.0
-    try:
-        assert "waiting for SYNC" in plant.stdout.readline()
-        firmware = subprocess.Popen([str(BUILD / "bin" / "reed_firmware"), *common, "--enable", "--log", str(log)], stdout=subprocess.DEVNULL)
-        while hold_up and "released" not in plant.stdout.readline():
-            assert firmware.poll() is None
+    with arm_at_work("lockstep", "--set", "scenario.duration_s=10", log=("--log", str(log))) as (plant, firmware):
         if hold_up:
             began = time.monotonic()
             plant.send_signal(signal.SIGSTOP)
@@ -112,9 +114,6 @@ def digest_in_lockstep(log, hold_up: bool) -> tuple[str, float]:
             plant.send_signal(signal.SIGCONT)
             held_s = running * (time.monotonic() - began)
         assert firmware.wait(timeout=60) == 0
-    finally:
-        plant.kill()
-        plant.communicate()
     return load(log).digest("lockstep"), held_s
 
 

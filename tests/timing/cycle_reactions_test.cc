@@ -85,10 +85,15 @@ void MarkTheNextAnswers(test::SilRig& rig) {
   };
 }
 
-TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
+LoopState TooManyMisses() {
   LoopState missed;
   missed.missed_in_row_exceeded = true;
   missed.missed_in_row = 42;
+  return missed;
+}
+
+TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
+  const LoopState missed = TooManyMisses();
   for (const bool stood : {false, true}) {
     test::SilRig rig(Pressing());
     ASSERT_TRUE(rig.RunActive(0.3));
@@ -106,9 +111,7 @@ TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
 }
 
 TEST(CycleReactions, TooManyMissesInARowWaitForASimulatedArmsAnswer) {
-  LoopState missed;
-  missed.missed_in_row_exceeded = true;
-  missed.missed_in_row = 42;
+  const LoopState missed = TooManyMisses();
   for (const bool stood : {false, true}) {
     test::SilRig rig(Pressing());
     ASSERT_TRUE(rig.RunActive(0.3));

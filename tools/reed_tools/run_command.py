@@ -6,15 +6,14 @@ import tempfile
 import time
 from pathlib import Path
 
-from reed_tools import bus_choice, hil, progress, result_table, scenario, trace_events, vm
+from reed_tools import bus_choice, hil, progress, report_html, result_table, scenario, trace_events, vm
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import ROOT, program
 from reed_tools.telemetry_log import load, merge
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
-             "summary.json", "report.html", "trace.json", "force.png", "joint_error.png", "lyapunov.png", "parameters.png", "timing.png",
-             "tip_error.png", "torque.png")
+             "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_html.CAPTIONS))
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
