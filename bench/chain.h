@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
 
 namespace reed::bench {
 

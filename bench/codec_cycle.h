@@ -1,8 +1,8 @@
 // The codec's share of one cycle of a5: SYNC and command out, five states and the wrench both ways, E2E.
 #pragma once
 
-#include "bench/stopwatch.h"
-#include "bus/messages.h"
+#include "reed/bench/stopwatch.h"
+#include "reed/bus/codec/messages.h"
 
 namespace reed::bench {
 

@@ -2,11 +2,11 @@
 // compensation, regressor, law, adaptation, observer) and the last gate. Set-up, then Run().
 #pragma once
 
-#include "bench/inputs.h"
-#include "config/schema/scenario_file.h"
-#include "firmware/protect/limits.h"
-#include "firmware/reference/path_planner.h"
-#include "firmware/strategy/separated.h"
+#include "reed/bench/inputs.h"
+#include "reed/config/schema/scenario_file.h"
+#include "reed/core/safety/limits.h"
+#include "reed/core/separated.h"
+#include "reed/firmware/planner/path_planner.h"
 
 namespace reed::bench {
 

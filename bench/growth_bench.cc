@@ -1,7 +1,7 @@
 // The whole control step for REED_BENCH_JOINTS joints, one program per number: a step for 32 joints is larger
 // than anything that an arm needs, and only built to be measured.
-#include "bench/chain.h"
-#include "bench/control_step.h"
+#include "reed/bench/chain.h"
+#include "reed/bench/control_step.h"
 
 int main(int argc, char** argv) {
   constexpr int N = REED_BENCH_JOINTS;

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "bench/stopwatch.h"
+#include "reed/bench/stopwatch.h"
 
 namespace reed::bench {
 

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <pinocchio/algorithm/jacobian.hpp>
 
-#include "bench/chain.h"
-#include "bench/inputs.h"
-#include "bench/pinocchio_arm.h"
-#include "config/schema/arm_file.h"
+#include "reed/bench/chain.h"
+#include "reed/bench/inputs.h"
+#include "reed/bench/pinocchio_arm.h"
+#include "reed/config/schema/arm_file.h"
 
 namespace reed::bench {
 namespace {

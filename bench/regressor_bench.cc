@@ -1,7 +1,7 @@
 // The regressor Y(q, qd, v, v_dot) of a5 and a7, with the kinematics it needs.
-#include "bench/inputs.h"
-#include "config/schema/arm_file.h"
-#include "firmware/model/regressor.h"
+#include "reed/bench/inputs.h"
+#include "reed/config/schema/arm_file.h"
+#include "reed/core/model/regressor.h"
 
 namespace reed::bench {
 namespace {

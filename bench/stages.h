@@ -2,9 +2,9 @@
 // Set-up, then any of them.
 #pragma once
 
-#include "bench/inputs.h"
-#include "firmware/strategy/law_bank.h"
-#include "firmware/strategy/separated.h"
+#include "reed/bench/inputs.h"
+#include "reed/core/law/law_bank.h"
+#include "reed/core/separated.h"
 
 namespace reed::bench {
 

@@ -1,7 +1,7 @@
 // Every stage of a5's control step and the whole of it, scenario press_known.
-#include "bench/codec_cycle.h"
-#include "bench/control_step.h"
-#include "bench/stages.h"
+#include "reed/bench/codec_cycle.h"
+#include "reed/bench/control_step.h"
+#include "reed/bench/stages.h"
 
 int main(int argc, char** argv) {
   const reed::bench::Stopwatch watch(argc, argv);

@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bus/open_transport.h"
-#include "config/schema/scenario_file.h"
-#include "plant_sim/endpoint/wall_endpoint.h"
-#include "plant_sim/process/realtime.h"
-#include "plant_sim/process/stop_signal.h"
-#include "plant_sim/telemetry/publisher.h"
+#include "reed/bus/transport/open_transport.h"
+#include "reed/config/schema/scenario_file.h"
+#include "reed/plant/endpoint/realtime_endpoint.h"
+#include "reed/plant/process/realtime.h"
+#include "reed/plant/process/stop_signal.h"
+#include "reed/plant/record/publisher.h"
 
 namespace reed::plant {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/rt/clock.h"
+#include "reed/rt/clock.h"
 
 /// One function under one name: no copy per caller, or callgrind would not find it.
 #ifdef __clang__

@@ -3,9 +3,9 @@
 // costs nothing. Between bursts the recorder is given time to empty the ring. reed_bench_telemetry FOLDER
 #include <cstdio>
 
-#include "bench/control_step.h"
-#include "firmware/telemetry/fill.h"
-#include "firmware/telemetry/recorder.h"
+#include "reed/bench/control_step.h"
+#include "reed/firmware/cycle/fill.h"
+#include "reed/firmware/record/recorder.h"
 
 namespace reed::bench {
 namespace {

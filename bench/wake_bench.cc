@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "firmware/rt/clock.h"
-#include "firmware/rt/grid.h"
-#include "firmware/rt/realtime_scope.h"
-#include "firmware/telemetry/histogram.h"
+#include "reed/firmware/record/histogram.h"
+#include "reed/rt/clock.h"
+#include "reed/rt/grid.h"
+#include "reed/rt/realtime_scope.h"
 
 int main(int argc, char** argv) {
   const auto number = [](const char* text) { return static_cast<int>(std::strtol(text, nullptr, 10)); };

@@ -1,5 +1,5 @@
-# reed_codec: C code that packs and unpacks every frame of a DBC, generated at build time, so that the DBC stays the
-# only source of layout. Two generators, one run: cantools (signals) and bus/generate_layout.py (identifiers, sizes,
+# reed_layout: C code that packs and unpacks every frame of a DBC, generated at build time, so that the DBC stays the
+# only source of layout. Two generators, one run: cantools (signals) and bus/codec/generate_layout.py (identifiers, sizes,
 # E2E data ids, bounds, hash). Touching the DBC or the script regenerates both.
 set(REED_PYTHON ${PROJECT_SOURCE_DIR}/build/venv/bin/python3 CACHE FILEPATH "Python that has cantools (tools/requirements)")
 
@@ -9,7 +9,7 @@ endif()
 
 function(reed_add_codec target dbc)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/generated)
-  set(layout_script ${PROJECT_SOURCE_DIR}/bus/generate_layout.py)
+  set(layout_script ${PROJECT_SOURCE_DIR}/bus/codec/generate_layout.py)
   file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${out}/reed.c ${out}/reed.h ${out}/reed_layout.h
@@ -21,5 +21,4 @@ function(reed_add_codec target dbc)
     VERBATIM)
   add_library(${target} STATIC ${out}/reed.c ${out}/reed.h ${out}/reed_layout.h)
   target_include_directories(${target} SYSTEM PUBLIC ${out})
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()

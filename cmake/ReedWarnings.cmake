@@ -8,10 +8,9 @@ target_compile_options(reed_warnings INTERFACE
   -Wnull-dereference -Wduplicated-cond -Wduplicated-branches -Wlogical-op
   -Wformat=2 -Wimplicit-fallthrough -Wundef -Wvla)
 
-# Every first-party library or program: C++20, warnings, one include root (the repository), generated headers as system headers.
+# Every first-party library or program: C++20, warnings, generated headers as system headers.
 function(reed_target name)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:reed_warnings>)
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
 # Sources that run once, at start, or only in tests: an optimised build compiles them at -O1, half as long for the large header

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "config/schema/scenario_file.h"
+#include "reed/config/schema/scenario_file.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};

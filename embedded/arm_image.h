@@ -2,7 +2,7 @@
 // has no heap for an ArmDescription. One list of fields for both ways.
 #pragma once
 
-#include "firmware/model/arm_model.h"
+#include "reed/core/model/arm_model.h"
 
 namespace reed::embedded {
 

@@ -1,11 +1,11 @@
-#include "embedded/core.h"
+#include "reed/embedded/core.h"
 
-#include "firmware/control/force_loop.h"
-#include "firmware/control/known_force.h"
-#include "firmware/control/unknown_force.h"
-#include "firmware/model/dynamics.h"
-#include "firmware/model/nodal_compensation.h"
-#include "firmware/model/regressor.h"
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/law/known_force.h"
+#include "reed/core/law/unknown_force.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/core/model/nodal_compensation.h"
+#include "reed/core/model/regressor.h"
 
 namespace reed::embedded {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <array>
 
-#include "bus/messages.h"
-#include "firmware/control/observer.h"
-#include "firmware/mode/supervisor.h"
-#include "firmware/model/arm_model.h"
-#include "firmware/protect/limits.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/core/estimate/observer.h"
+#include "reed/core/model/arm_model.h"
+#include "reed/core/safety/limits.h"
+#include "reed/core/safety/supervisor.h"
 
 namespace reed::embedded {
 

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "config/schema/arm_file.h"
-#include "embedded/arm_image.h"
-#include "embedded/core.h"
+#include "reed/config/schema/arm_file.h"
+#include "reed/embedded/arm_image.h"
+#include "reed/embedded/core.h"
 
 int main(int argc, char** argv) {
   try {

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "embedded/platform.h"
+#include "reed/embedded/platform.h"
 
 namespace reed::embedded {
 

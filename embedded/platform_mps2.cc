@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "embedded/platform.h"
+#include "reed/embedded/platform.h"
 
 extern "C" {
 extern std::uint32_t stack_bottom, stack_top, data_load, data_start, data_end, bss_start, bss_end;

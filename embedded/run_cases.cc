@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <cstring>
 
-#include "embedded/arm_image.h"
-#include "embedded/core.h"
-#include "embedded/platform.h"
 #include "embedded_data.h"
+#include "reed/embedded/arm_image.h"
+#include "reed/embedded/core.h"
+#include "reed/embedded/platform.h"
 
 namespace reed::embedded {
 namespace {

@@ -9,16 +9,17 @@
 #include <stdexcept>
 #include <thread>
 
-#include "bus/open_transport.h"
-#include "bus/wire_time.h"
-#include "config/schema/cores.h"
-#include "firmware/ground.h"
-#include "firmware/loop.h"
-#include "firmware/options.h"
-#include "firmware/rt/heap_guard.h"
-#include "firmware/rt/realtime_scope.h"
-#include "firmware/rt/syscall_guard.h"
-#include "firmware/rt/usage.h"
+#include "options.h"
+#include "reed/bus/codec/wire_time.h"
+#include "reed/bus/transport/open_transport.h"
+#include "reed/config/description/cores.h"
+#include "reed/firmware/loop/loop.h"
+#include "reed/firmware/record/recorder.h"
+#include "reed/firmware/startup/checks.h"
+#include "reed/rt/heap_guard.h"
+#include "reed/rt/realtime_scope.h"
+#include "reed/rt/syscall_guard.h"
+#include "reed/rt/usage.h"
 
 namespace reed {
 namespace {

@@ -1,4 +1,4 @@
-#include "firmware/options.h"
+#include "options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/schema/scenario_file.h"
+#include "reed/config/schema/scenario_file.h"
 
 namespace reed {
 

@@ -9,16 +9,16 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bus/open_transport.h"
-#include "config/schema/cores.h"
-#include "plant_sim/endpoint/flexible_arm_body.h"
-#include "plant_sim/endpoint/lockstep_endpoint.h"
-#include "plant_sim/endpoint/wall_endpoint.h"
-#include "plant_sim/options.h"
-#include "plant_sim/process/realtime.h"
-#include "plant_sim/process/stall_watch.h"
-#include "plant_sim/process/stop_signal.h"
-#include "plant_sim/telemetry/publisher.h"
+#include "options.h"
+#include "reed/bus/transport/open_transport.h"
+#include "reed/config/description/cores.h"
+#include "reed/plant/endpoint/flexible_arm_body.h"
+#include "reed/plant/endpoint/lockstep_endpoint.h"
+#include "reed/plant/endpoint/realtime_endpoint.h"
+#include "reed/plant/process/realtime.h"
+#include "reed/plant/process/stall_watch.h"
+#include "reed/plant/process/stop_signal.h"
+#include "reed/plant/record/publisher.h"
 
 namespace reed::plant {
 namespace {

@@ -1,4 +1,4 @@
-#include "plant_sim/options.h"
+#include "options.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "config/schema/arm_bodies.h"
+#include "reed/config/schema/arm_bodies.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/arm_description.h"
-#include "config/schema/reader.h"
+#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/reader.h"
 
 namespace reed {
 

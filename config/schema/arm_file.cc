@@ -1,8 +1,8 @@
-#include "config/schema/arm_file.h"
+#include "reed/config/schema/arm_file.h"
 
-#include "config/schema/arm_bodies.h"
-#include "config/schema/arm_parameters.h"
-#include "config/schema/reader.h"
+#include "reed/config/schema/arm_bodies.h"
+#include "reed/config/schema/arm_parameters.h"
+#include "reed/config/schema/reader.h"
 
 namespace reed {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "config/schema/arm_description.h"
-#include "config/schema/config_error.h"
-#include "config/schema/document.h"
+#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/config_error.h"
+#include "reed/config/schema/document.h"
 
 namespace reed {
 

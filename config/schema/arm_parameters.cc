@@ -1,8 +1,8 @@
-#include "config/schema/arm_parameters.h"
+#include "reed/config/schema/arm_parameters.h"
 
 #include <algorithm>
 
-#include "config/schema/arm_bodies.h"
+#include "reed/config/schema/arm_bodies.h"
 
 namespace reed {
 namespace {

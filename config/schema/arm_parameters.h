@@ -2,8 +2,8 @@
 // only.
 #pragma once
 
-#include "config/schema/arm_description.h"
-#include "config/schema/reader.h"
+#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/reader.h"
 
 namespace reed {
 

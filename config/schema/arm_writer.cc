@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "config/schema/arm_file.h"
-#include "config/schema/writer.h"
+#include "reed/config/schema/arm_file.h"
+#include "reed/config/schema/writer.h"
 
 namespace reed {
 namespace {

@@ -1,4 +1,4 @@
-#include "config/schema/document.h"
+#include "reed/config/schema/document.h"
 
 #include <charconv>
 #include <filesystem>

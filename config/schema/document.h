@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/config_error.h"
+#include "reed/config/schema/config_error.h"
 
 namespace reed {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "config/schema/arm_file.h"
+#include "reed/config/schema/arm_file.h"
 
 namespace reed {
 

@@ -1,8 +1,8 @@
 // The third visitor: lists every key for config/README.md, so the page cannot drift from the reader.
 #include <sstream>
 
-#include "config/schema/scenario_fields.h"
-#include "config/schema/scenario_file.h"
+#include "reed/config/schema/scenario_fields.h"
+#include "reed/config/schema/scenario_file.h"
 
 namespace reed {
 namespace {

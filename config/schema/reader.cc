@@ -1,4 +1,4 @@
-#include "config/schema/reader.h"
+#include "reed/config/schema/reader.h"
 
 #include <algorithm>
 #include <charconv>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/bound.h"
-#include "config/schema/document.h"
+#include "reed/config/schema/bound.h"
+#include "reed/config/schema/document.h"
 
 namespace reed {
 

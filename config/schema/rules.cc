@@ -1,8 +1,8 @@
-#include "config/schema/rules.h"
+#include "reed/config/schema/rules.h"
 
 #include <cmath>
 
-#include "config/schema/bound.h"
+#include "reed/config/schema/bound.h"
 
 namespace reed {
 namespace {

@@ -1,8 +1,8 @@
 // Rules between keys: what no single bound can say. RT: set-up only.
 #pragma once
 
-#include "config/schema/document.h"
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
+#include "reed/config/schema/document.h"
 
 namespace reed {
 

@@ -2,8 +2,8 @@
 // this.
 #pragma once
 
-#include "config/schema/bound.h"
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
+#include "reed/config/schema/bound.h"
 
 namespace reed {
 

@@ -1,14 +1,14 @@
-#include "config/schema/scenario_file.h"
+#include "reed/config/schema/scenario_file.h"
 
 #include <algorithm>
 
-#include "config/schema/arm_file.h"
-#include "config/schema/reader.h"
-#include "config/schema/rules.h"
-#include "config/schema/scenario_fields.h"
-#include "config/schema/toml_text.h"
-#include "config/schema/true_parameters.h"
-#include "config/schema/writer.h"
+#include "reed/config/schema/arm_file.h"
+#include "reed/config/schema/reader.h"
+#include "reed/config/schema/rules.h"
+#include "reed/config/schema/scenario_fields.h"
+#include "reed/config/schema/toml_text.h"
+#include "reed/config/schema/true_parameters.h"
+#include "reed/config/schema/writer.h"
 
 namespace reed {
 namespace {

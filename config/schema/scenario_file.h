@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/config_error.h"
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
+#include "reed/config/schema/config_error.h"
 
 namespace reed {
 

@@ -1,8 +1,8 @@
-#include "config/schema/toml_text.h"
+#include "reed/config/schema/toml_text.h"
 
 #include <sstream>
 
-#include "config/schema/bound.h"
+#include "reed/config/schema/bound.h"
 
 namespace reed {
 namespace {

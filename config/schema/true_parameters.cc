@@ -1,4 +1,4 @@
-#include "config/schema/true_parameters.h"
+#include "reed/config/schema/true_parameters.h"
 
 namespace reed {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "config/schema/bound.h"
+#include "reed/config/schema/bound.h"
 
 namespace reed {
 

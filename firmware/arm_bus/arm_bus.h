@@ -6,11 +6,11 @@
 #include <bit>
 #include <span>
 
-#include "bus/messages.h"
-#include "bus/transport.h"
-#include "firmware/arm_bus/measurement.h"
-#include "firmware/rt/clock.h"
-#include "firmware/telemetry/snapshot.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/bus/transport/transport.h"
+#include "reed/core/measurement.h"
+#include "reed/firmware/snapshot/snapshot.h"
+#include "reed/rt/clock.h"
 #include "reed_layout.h"
 
 namespace reed {

@@ -1,9 +1,9 @@
-#include "plant_sim/drive/drive_chain.h"
+#include "reed/plant/drive/drive_chain.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "plant_sim/drive/drive_state.h"
+#include "reed/plant/drive/drive_state.h"
 
 namespace reed::plant {
 

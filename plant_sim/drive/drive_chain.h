@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "bus/messages.h"
-#include "config/schema/scenario.h"
-#include "plant_sim/drive/torque_output.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/config/description/scenario.h"
+#include "reed/plant/drive/torque_output.h"
 
 namespace reed::plant {
 

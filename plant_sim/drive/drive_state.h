@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "bus/messages.h"
+#include "reed/bus/codec/messages.h"
 
 namespace reed::plant {
 

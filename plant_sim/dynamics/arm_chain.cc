@@ -1,10 +1,10 @@
-#include "plant_sim/dynamics/arm_chain.h"
+#include "reed/plant/dynamics/arm_chain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "plant_sim/dynamics/mass_split.h"
+#include "reed/plant/dynamics/mass_split.h"
 
 namespace reed::plant {
 

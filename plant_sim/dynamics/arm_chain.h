@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/scenario.h"
-#include "plant_sim/dynamics/beam_elasticity.h"
-#include "plant_sim/dynamics/beam_inertia.h"
-#include "plant_sim/dynamics/friction.h"
-#include "plant_sim/dynamics/joint_spring.h"
-#include "plant_sim/dynamics/rigid_body.h"
+#include "reed/config/description/scenario.h"
+#include "reed/plant/dynamics/beam_elasticity.h"
+#include "reed/plant/dynamics/beam_inertia.h"
+#include "reed/plant/dynamics/friction.h"
+#include "reed/plant/dynamics/joint_spring.h"
+#include "reed/plant/dynamics/rigid_body.h"
 
 namespace reed::plant {
 

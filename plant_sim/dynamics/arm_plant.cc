@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/arm_plant.h"
+#include "reed/plant/dynamics/arm_plant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "plant_sim/dynamics/disturbance.h"
-#include "plant_sim/dynamics/equilibrium.h"
-#include "plant_sim/dynamics/rosenbrock.h"
+#include "reed/plant/dynamics/disturbance.h"
+#include "reed/plant/dynamics/equilibrium.h"
+#include "reed/plant/dynamics/rosenbrock.h"
 
 namespace reed::plant {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/beam_elasticity.h"
+#include "reed/plant/dynamics/beam_elasticity.h"
 
 namespace reed::plant {
 

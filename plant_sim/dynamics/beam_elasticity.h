@@ -5,7 +5,7 @@
 // element. Structural damping: the same form in the rates times β. RT: safe after construction.
 #pragma once
 
-#include "plant_sim/dynamics/section.h"
+#include "reed/plant/dynamics/section.h"
 
 namespace reed::plant {
 

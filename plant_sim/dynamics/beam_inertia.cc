@@ -1,6 +1,6 @@
-#include "plant_sim/dynamics/beam_inertia.h"
+#include "reed/plant/dynamics/beam_inertia.h"
 
-#include "plant_sim/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/processor_clones.h"
 
 namespace reed::plant {
 

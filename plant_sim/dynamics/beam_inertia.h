@@ -8,7 +8,7 @@
 // after construction.
 #pragma once
 
-#include "plant_sim/dynamics/section.h"
+#include "reed/plant/dynamics/section.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/beam_shapes.h"
+#include "reed/plant/dynamics/beam_shapes.h"
 
 #include <array>
 

@@ -1,9 +1,9 @@
-#include "plant_sim/dynamics/block_kernels.h"
+#include "reed/plant/dynamics/block_kernels.h"
 
 #include <cstddef>
 #include <cstring>
 
-#include "plant_sim/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/processor_clones.h"
 
 namespace reed::plant {
 

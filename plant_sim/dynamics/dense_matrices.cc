@@ -1,5 +1,5 @@
 // Dense matrices of the equations of motion, for modes and checks; the sweeps never build them.
-#include "plant_sim/dynamics/equations_of_motion.h"
+#include "reed/plant/dynamics/equations_of_motion.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/disturbance.h"
+#include "reed/plant/dynamics/disturbance.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
-#include "plant_sim/dynamics/elimination.h"
+#include "reed/plant/dynamics/elimination.h"
 
-#include "plant_sim/dynamics/block_kernels.h"
+#include "reed/plant/dynamics/block_kernels.h"
 
 namespace reed::plant {
 

@@ -1,8 +1,8 @@
 // One element's share of the sweep: the quadratic form in [e | base rate] and the elimination of e. RT: safe.
 #pragma once
 
-#include "plant_sim/dynamics/beam_elasticity.h"
-#include "plant_sim/dynamics/beam_inertia.h"
+#include "reed/plant/dynamics/beam_elasticity.h"
+#include "reed/plant/dynamics/beam_inertia.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/equations_of_motion.h"
+#include "reed/plant/dynamics/equations_of_motion.h"
 
 #include <cmath>
 

@@ -14,10 +14,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plant_sim/dynamics/arm_chain.h"
-#include "plant_sim/dynamics/brake.h"
-#include "plant_sim/dynamics/elimination.h"
-#include "plant_sim/dynamics/wall.h"
+#include "reed/plant/dynamics/arm_chain.h"
+#include "reed/plant/dynamics/brake.h"
+#include "reed/plant/dynamics/elimination.h"
+#include "reed/plant/dynamics/wall.h"
 
 namespace reed::plant {
 

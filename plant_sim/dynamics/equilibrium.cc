@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/equilibrium.h"
+#include "reed/plant/dynamics/equilibrium.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

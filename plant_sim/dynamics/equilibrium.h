@@ -1,7 +1,7 @@
 // Static equilibrium with the motors held, and the vibration modes about it. Set-up only: it allocates.
 #pragma once
 
-#include "plant_sim/dynamics/equations_of_motion.h"
+#include "reed/plant/dynamics/equations_of_motion.h"
 
 namespace reed::plant {
 

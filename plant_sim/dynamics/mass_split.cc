@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/mass_split.h"
+#include "reed/plant/dynamics/mass_split.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "plant_sim/dynamics/beam_inertia.h"
-#include "plant_sim/dynamics/rigid_body.h"
+#include "reed/plant/dynamics/beam_inertia.h"
+#include "reed/plant/dynamics/rigid_body.h"
 
 namespace reed::plant {
 

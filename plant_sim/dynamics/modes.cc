@@ -1,11 +1,11 @@
-#include "plant_sim/dynamics/modes.h"
+#include "reed/plant/dynamics/modes.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "plant_sim/dynamics/equilibrium.h"
+#include "reed/plant/dynamics/equilibrium.h"
 
 namespace reed::plant {
 

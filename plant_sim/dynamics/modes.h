@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
 
 namespace reed::plant {
 

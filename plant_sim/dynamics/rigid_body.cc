@@ -1,8 +1,8 @@
-#include "plant_sim/dynamics/rigid_body.h"
+#include "reed/plant/dynamics/rigid_body.h"
 
 #include <cmath>
 
-#include "plant_sim/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/processor_clones.h"
 
 namespace reed::plant {
 

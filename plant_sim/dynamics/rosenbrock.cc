@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/rosenbrock.h"
+#include "reed/plant/dynamics/rosenbrock.h"
 
 #include <numbers>
 

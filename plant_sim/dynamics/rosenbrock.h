@@ -8,7 +8,7 @@
 // docs/flexible_arm.md). RT: safe.
 #pragma once
 
-#include "plant_sim/dynamics/equations_of_motion.h"
+#include "reed/plant/dynamics/equations_of_motion.h"
 
 namespace reed::plant {
 

@@ -1,6 +1,6 @@
-#include "plant_sim/dynamics/section.h"
+#include "reed/plant/dynamics/section.h"
 
-#include "plant_sim/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/processor_clones.h"
 
 namespace reed::plant {
 

@@ -11,8 +11,8 @@
 
 #include <Eigen/Core>
 
-#include "plant_sim/dynamics/beam_shapes.h"
-#include "plant_sim/dynamics/rigid_body.h"
+#include "reed/plant/dynamics/beam_shapes.h"
+#include "reed/plant/dynamics/rigid_body.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/dynamics/wall.h"
+#include "reed/plant/dynamics/wall.h"
 
 #include <algorithm>
 

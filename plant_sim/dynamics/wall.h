@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
 
 namespace reed::plant {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "plant_sim/dynamics/arm_plant.h"
+#include "reed/plant/dynamics/arm_plant.h"
 
 namespace reed::plant {
 

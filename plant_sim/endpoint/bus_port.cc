@@ -1,4 +1,4 @@
-#include "plant_sim/endpoint/bus_port.h"
+#include "reed/plant/endpoint/bus_port.h"
 
 namespace reed::plant {
 

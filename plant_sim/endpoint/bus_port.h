@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "bus/messages.h"
-#include "bus/transport.h"
-#include "plant_sim/endpoint/robot.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/bus/transport/transport.h"
+#include "reed/plant/endpoint/robot.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/endpoint/endpoint.h"
+#include "reed/plant/endpoint/endpoint.h"
 
 #include "reed_layout.h"
 

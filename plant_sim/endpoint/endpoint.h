@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "plant_sim/endpoint/bus_port.h"
-#include "plant_sim/endpoint/outcome.h"
-#include "plant_sim/endpoint/robot.h"
+#include "reed/plant/endpoint/bus_port.h"
+#include "reed/plant/endpoint/outcome.h"
+#include "reed/plant/endpoint/robot.h"
 
 namespace reed::plant {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "plant_sim/endpoint/arm_body.h"
+#include "reed/plant/endpoint/arm_body.h"
 
 namespace reed::plant {
 

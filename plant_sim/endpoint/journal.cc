@@ -1,4 +1,4 @@
-#include "plant_sim/endpoint/journal.h"
+#include "reed/plant/endpoint/journal.h"
 
 #include <algorithm>
 #include <cstdarg>

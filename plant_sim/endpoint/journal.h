@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "bus/messages.h"
-#include "plant_sim/telemetry/records.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/plant/record/records.h"
 
 namespace reed::plant {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/endpoint/lockstep_endpoint.h"
+#include "reed/plant/endpoint/lockstep_endpoint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "plant_sim/endpoint/endpoint.h"
+#include "reed/plant/endpoint/endpoint.h"
 
 namespace reed::plant {
 

@@ -1,9 +1,9 @@
-#include "plant_sim/endpoint/robot.h"
+#include "reed/plant/endpoint/robot.h"
 
 #include <algorithm>
 #include <span>
 
-#include "plant_sim/drive/drive_state.h"
+#include "reed/plant/drive/drive_state.h"
 
 namespace reed::plant {
 namespace {

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "bus/messages.h"
-#include "config/schema/scenario.h"
-#include "plant_sim/drive/drive_chain.h"
-#include "plant_sim/endpoint/arm_body.h"
-#include "plant_sim/endpoint/journal.h"
-#include "plant_sim/sensor/encoder.h"
-#include "plant_sim/sensor/velocity_filter.h"
-#include "plant_sim/sensor/wrench_sensor.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/config/description/scenario.h"
+#include "reed/plant/drive/drive_chain.h"
+#include "reed/plant/endpoint/arm_body.h"
+#include "reed/plant/endpoint/journal.h"
+#include "reed/plant/sensor/encoder.h"
+#include "reed/plant/sensor/velocity_filter.h"
+#include "reed/plant/sensor/wrench_sensor.h"
 
 namespace reed::plant {
 

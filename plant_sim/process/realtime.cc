@@ -1,12 +1,12 @@
-#include "plant_sim/process/realtime.h"
+#include "reed/plant/process/realtime.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <stdexcept>
 
-#include "config/schema/cores.h"
-#include "plant_sim/process/thread_rights.h"
+#include "reed/config/description/cores.h"
+#include "reed/plant/process/thread_rights.h"
 
 namespace reed::plant {
 namespace {

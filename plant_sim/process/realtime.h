@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "config/schema/scenario.h"
+#include "reed/config/description/scenario.h"
 
 namespace reed::plant {
 

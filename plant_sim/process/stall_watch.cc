@@ -1,11 +1,11 @@
-#include "plant_sim/process/stall_watch.h"
+#include "reed/plant/process/stall_watch.h"
 
 #include <ctime>
 #include <future>
 #include <utility>
 
-#include "bus/monotonic.h"
-#include "plant_sim/process/thread_rights.h"
+#include "reed/plant/process/thread_rights.h"
+#include "reed/rt/monotonic.h"
 
 namespace reed::plant {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 std::int64_t TimerResolution_ns() {
   timespec resolution{};
   clock_getres(CLOCK_MONOTONIC, &resolution);
-  return resolution.tv_sec * bus::kNsPerSecond + resolution.tv_nsec;
+  return resolution.tv_sec * rt::kNsPerSecond + resolution.tv_nsec;
 }
 
 /// Core and priority for this thread; why they are refused, or "".
@@ -47,12 +47,12 @@ StallWatch::~StallWatch() {
 }
 
 void StallWatch::Watch() noexcept {
-  std::int64_t due_ns = bus::NowNs();
+  std::int64_t due_ns = rt::NowNs();
   while (!stop_.load(std::memory_order_relaxed)) {
     due_ns += kBeat_ns;
-    const timespec due{due_ns / bus::kNsPerSecond, due_ns % bus::kNsPerSecond};
+    const timespec due{due_ns / rt::kNsPerSecond, due_ns % rt::kNsPerSecond};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
-    const std::int64_t late_ns = bus::NowNs() - due_ns;
+    const std::int64_t late_ns = rt::NowNs() - due_ns;
     if (late_ns < kStall_ns) continue;
     stood_ns_.store(stood_ns_.load(std::memory_order_relaxed) + late_ns, std::memory_order_relaxed);
     due_ns += late_ns;

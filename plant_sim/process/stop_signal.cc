@@ -1,4 +1,4 @@
-#include "plant_sim/process/stop_signal.h"
+#include "reed/plant/process/stop_signal.h"
 
 #include <csignal>
 

@@ -1,4 +1,4 @@
-#include "plant_sim/sensor/wrench_sensor.h"
+#include "reed/plant/sensor/wrench_sensor.h"
 
 #include <algorithm>
 #include <cmath>

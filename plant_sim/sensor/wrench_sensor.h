@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "config/schema/scenario.h"
-#include "plant_sim/sensor/random_stream.h"
+#include "reed/config/description/scenario.h"
+#include "reed/plant/sensor/random_stream.h"
 
 namespace reed::plant {
 

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "bus/messages.h"
-#include "bus/open_transport.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/bus/transport/open_transport.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "bus/messages.h"
-#include "tests/support/reprotect.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/tests/support/reprotect.h"
 
 namespace reed::bus {
 namespace {

@@ -1,4 +1,4 @@
-#include "bus/e2e_profile5.h"
+#include "reed/bus/codec/e2e_profile5.h"
 
 #include <gtest/gtest.h>
 

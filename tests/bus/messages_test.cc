@@ -1,5 +1,5 @@
 // What is encoded is decoded: every signal, its bounds, and numbers that do not fit.
-#include "bus/messages.h"
+#include "reed/bus/codec/messages.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Byte strings here were written by Python's msgpack for python-can messages; the live comparison is
 // test_udp_bus.py.
-#include "bus/msgpack_frame.h"
+#include "reed/bus/transport/msgpack_frame.h"
 
 #include <gtest/gtest.h>
 

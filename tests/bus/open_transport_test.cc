@@ -1,4 +1,4 @@
-#include "bus/open_transport.h"
+#include "reed/bus/transport/open_transport.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

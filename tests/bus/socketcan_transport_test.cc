@@ -1,5 +1,5 @@
 // On a real CAN stack (vcan0, or the interface that REED_CAN_INTERFACE names). Fails where there is none.
-#include "bus/socketcan_transport.h"
+#include "reed/bus/transport/socketcan_transport.h"
 
 #include <gtest/gtest.h>
 #include <linux/can.h>
@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
-#include "tests/support/no_alloc.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::bus {
 namespace {

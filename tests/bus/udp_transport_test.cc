@@ -1,4 +1,4 @@
-#include "bus/udp_transport.h"
+#include "reed/bus/transport/udp_transport.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
-#include "bus/msgpack_frame.h"
-#include "tests/support/no_alloc.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/bus/transport/msgpack_frame.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::bus {
 namespace {

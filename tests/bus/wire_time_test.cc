@@ -1,4 +1,4 @@
-#include "bus/wire_time.h"
+#include "reed/bus/codec/wire_time.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 
 #include <random>
 
-#include "firmware/control/force_estimate.h"
-#include "firmware/control/force_loop.h"
-#include "firmware/control/normal_direction.h"
-#include "firmware/model/kinematics.h"
-#include "tests/support/arms.h"
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/contact/normal_direction.h"
+#include "reed/core/estimate/force_estimate.h"
+#include "reed/core/model/kinematics.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed {
 namespace {

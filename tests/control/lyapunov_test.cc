@@ -1,19 +1,19 @@
 // (42)-(46): V differentiated by differences along the closed loop against what the page says V̇ is. The
 // plant's acceleration is solved from (21) with the mass matrix, so nothing of the predicted V̇ enters the
 // computed one.
-#include "firmware/control/lyapunov.h"
+#include "reed/core/law/lyapunov.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-#include "firmware/control/force_loop.h"
-#include "firmware/control/known_force.h"
-#include "firmware/control/unknown_force.h"
-#include "firmware/model/dynamics.h"
-#include "firmware/model/regressor.h"
-#include "tests/support/arms.h"
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/law/known_force.h"
+#include "reed/core/law/unknown_force.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/core/model/regressor.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed {
 namespace {

@@ -1,12 +1,12 @@
 // D against Eigen's singular values: regular, singular and dead poses.
-#include "firmware/control/normal_direction.h"
+#include "reed/core/contact/normal_direction.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
 #include <random>
 
-#include "tests/support/no_alloc.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::control {
 namespace {

@@ -1,5 +1,5 @@
 // (47): a body of constant inertia under a step of torque that nobody announced.
-#include "firmware/control/observer.h"
+#include "reed/core/estimate/observer.h"
 
 #include <gtest/gtest.h>
 

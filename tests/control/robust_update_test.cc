@@ -1,5 +1,5 @@
 // What keeps estimates where they belong: dead-zone, leak, box.
-#include "firmware/control/robust_update.h"
+#include "reed/core/law/robust_update.h"
 
 #include <gtest/gtest.h>
 

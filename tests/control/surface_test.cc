@@ -1,11 +1,11 @@
 // (22)-(25) and the sign functions.
-#include "firmware/control/surface.h"
+#include "reed/core/law/surface.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/control/computed_torque.h"
-#include "firmware/control/friction.h"
-#include "firmware/control/paper_printed.h"
+#include "reed/core/law/computed_torque.h"
+#include "reed/core/law/friction.h"
+#include "reed/core/law/paper_printed.h"
 
 namespace reed::control {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/firmware/arm_bus_rig.h"
+#include "reed/tests/firmware/arm_bus_rig.h"
 
 namespace reed {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/arm_bus/arm_bus.h"
-#include "tests/support/fake_transport.h"
+#include "reed/firmware/arm_bus/arm_bus.h"
+#include "reed/tests/support/fake_transport.h"
 
 namespace reed {
 

@@ -1,8 +1,8 @@
 // The arm as seen through frames: which values are used and how old they are.
 #include <tuple>
 
-#include "bus/monotonic.h"
-#include "tests/firmware/arm_bus_rig.h"
+#include "reed/rt/monotonic.h"
+#include "reed/tests/firmware/arm_bus_rig.h"
 
 namespace reed {
 namespace {
@@ -181,9 +181,9 @@ class HeldUp final : public bus::Transport {
 
 /// A cycle that has a hundred seconds for its answers and begins so much later than now.
 bool ReceiveIn(ArmBus<kN>& bus, telemetry::Snapshot& tap, std::int64_t begins_in_ns = 0) {
-  tap.time_ns = bus::NowNs() + begins_in_ns;
+  tap.time_ns = rt::NowNs() + begins_in_ns;
   bus.SendSync(0, tap);
-  return bus.Receive(tap.time_ns + 100 * bus::kNsPerSecond, tap);
+  return bus.Receive(tap.time_ns + 100 * rt::kNsPerSecond, tap);
 }
 
 TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
@@ -192,7 +192,7 @@ TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
   PutAll(0);
   Put(Wrench(0, 5.0));
   EXPECT_TRUE(ReceiveIn(bus, tap_));
-  EXPECT_GE(bus::NowNs() - tap_.time_ns, bus::kNsPerSecond / 5);
+  EXPECT_GE(rt::NowNs() - tap_.time_ns, rt::kNsPerSecond / 5);
   EXPECT_EQ(bus.measurement().wrench_age, 0);
 }
 
@@ -207,7 +207,7 @@ TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
 TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
   HeldUp transport(wire_.controller, 0, 0);
   ArmBus<kN> bus(transport);
-  EXPECT_FALSE(ReceiveIn(bus, tap_, bus::kNsPerSecond))
+  EXPECT_FALSE(ReceiveIn(bus, tap_, rt::kNsPerSecond))
       << "later, so that no stall of the machine fills the wait";
   EXPECT_EQ(transport.waits, 1);
 }

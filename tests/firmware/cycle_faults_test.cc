@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/firmware/sil_rig.h"
+#include "reed/tests/firmware/sil_rig.h"
 
 namespace reed {
 namespace {

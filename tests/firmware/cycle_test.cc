@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/firmware/sil_rig.h"
+#include "reed/tests/firmware/sil_rig.h"
 
 namespace reed {
 namespace {

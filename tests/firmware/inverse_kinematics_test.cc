@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "tests/firmware/reference_bench.h"
+#include "reed/tests/firmware/reference_bench.h"
 
 namespace reed::reference {
 namespace {

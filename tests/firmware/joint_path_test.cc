@@ -1,11 +1,11 @@
 // What the arm shall do over time: blends and paths against closed forms and finite differences.
-#include "firmware/reference/joint_path.h"
+#include "reed/core/reference/joint_path.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "firmware/reference/force_profile.h"
+#include "reed/core/reference/force_profile.h"
 
 namespace reed::reference {
 namespace {

@@ -1,8 +1,8 @@
 // Every pair of mode and event against a table written down a second time, and the supervisor that walks it.
 #include <gtest/gtest.h>
 
-#include "firmware/mode/mode_table.h"
-#include "firmware/mode/supervisor.h"
+#include "reed/core/safety/mode_table.h"
+#include "reed/core/safety/supervisor.h"
 
 namespace reed::mode {
 namespace {

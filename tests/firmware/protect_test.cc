@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "firmware/protect/limits.h"
-#include "firmware/protect/reason.h"
+#include "reed/core/safety/limits.h"
+#include "reed/core/safety/reason.h"
 
 namespace reed::protect {
 namespace {

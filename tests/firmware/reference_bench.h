@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware/reference/path_planner.h"
-#include "tests/support/arms.h"
+#include "reed/firmware/planner/path_planner.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed::reference {
 

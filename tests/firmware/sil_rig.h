@@ -6,14 +6,14 @@
 #include <memory>
 #include <optional>
 
-#include "bus/messages.h"
-#include "config/schema/scenario_file.h"
-#include "firmware/cycle_base.h"
-#include "firmware/rt/clock.h"
-#include "firmware/rt/heap_guard.h"
-#include "plant_sim/endpoint/flexible_arm_body.h"
-#include "plant_sim/endpoint/lockstep_endpoint.h"
-#include "tests/support/fake_transport.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/config/schema/scenario_file.h"
+#include "reed/firmware/cycle/cycle_base.h"
+#include "reed/plant/endpoint/flexible_arm_body.h"
+#include "reed/plant/endpoint/lockstep_endpoint.h"
+#include "reed/rt/clock.h"
+#include "reed/rt/heap_guard.h"
+#include "reed/tests/support/fake_transport.h"
 
 namespace reed::test {
 

@@ -1,4 +1,4 @@
-#include "firmware/math/positive_solver.h"
+#include "reed/core/model/positive_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "firmware/model/arm_model.h"
+#include "reed/core/model/arm_model.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/model/dynamics.h"
-#include "tests/model/states.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

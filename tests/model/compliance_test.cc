@@ -1,10 +1,10 @@
 // The serial form of the loop against the finite matrix analysis, on arms with odd twists.
-#include "firmware/model/compliance.h"
+#include "reed/core/model/compliance.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/model/finite_matrix_arm.h"
-#include "tests/model/states.h"
+#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

@@ -1,12 +1,12 @@
 // (5), (6) against closed forms: cantilever, L-frame, portal under spread load, springs, joints that pass no
 // moment.
-#include "firmware/model/finite_matrix.h"
+#include "reed/firmware/stiffness/finite_matrix.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "firmware/model/semidefinite_solver.h"
+#include "reed/firmware/stiffness/semidefinite_solver.h"
 
 namespace reed::model {
 namespace {

@@ -1,9 +1,9 @@
 // (1)-(3) against products of 4x4 matrices and central differences.
-#include "firmware/model/kinematics.h"
+#include "reed/core/model/kinematics.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/model/states.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <Eigen/LU>
 
-#include "firmware/model/compliance.h"
-#include "firmware/model/member_stiffness.h"
-#include "tests/model/states.h"
+#include "reed/core/model/compliance.h"
+#include "reed/firmware/stiffness/member_stiffness.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

@@ -1,10 +1,10 @@
 // Everything that the loop asks of the model, without the heap.
 #include <gtest/gtest.h>
 
-#include "firmware/model/nodal_compensation.h"
-#include "firmware/model/regressor.h"
-#include "tests/model/states.h"
-#include "tests/support/no_alloc.h"
+#include "reed/core/model/nodal_compensation.h"
+#include "reed/core/model/regressor.h"
+#include "reed/tests/model/states.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::model {
 namespace {

@@ -1,8 +1,8 @@
 // What the momentum observer is told: M q̇ and Cᵀ q̇ - G, in O(N) against the matrices.
 #include <gtest/gtest.h>
 
-#include "firmware/model/dynamics.h"
-#include "tests/model/states.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

@@ -1,9 +1,9 @@
 // (22): the bent arm with its motors at θ_d against the plan of the rigid one.
-#include "firmware/model/nodal_compensation.h"
+#include "reed/core/model/nodal_compensation.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/model/states.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

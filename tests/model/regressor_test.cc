@@ -1,10 +1,10 @@
 // (20), (27), (28) by identities that hold for every arm.
-#include "firmware/model/regressor.h"
+#include "reed/core/model/regressor.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/model/dynamics.h"
-#include "tests/model/states.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/tests/model/states.h"
 
 namespace reed::model {
 namespace {

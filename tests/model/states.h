@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "firmware/model/arm_model.h"
-#include "tests/support/arms.h"
+#include "reed/core/model/arm_model.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed::test {
 

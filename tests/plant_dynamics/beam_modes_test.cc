@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "plant_sim/dynamics/modes.h"
+#include "reed/plant/dynamics/modes.h"
 
 namespace reed::plant {
 namespace {

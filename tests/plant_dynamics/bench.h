@@ -1,9 +1,9 @@
 // Scenes that the plant's tests share.
 #pragma once
 
-#include "config/schema/scenario.h"
-#include "plant_sim/dynamics/arm_plant.h"
-#include "tests/support/arms.h"
+#include "reed/config/description/scenario.h"
+#include "reed/plant/dynamics/arm_plant.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed::test {
 

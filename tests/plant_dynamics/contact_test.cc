@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "plant_sim/dynamics/brake.h"
-#include "plant_sim/dynamics/disturbance.h"
-#include "plant_sim/dynamics/modes.h"
-#include "plant_sim/dynamics/wall.h"
-#include "tests/plant_dynamics/bench.h"
+#include "reed/plant/dynamics/brake.h"
+#include "reed/plant/dynamics/disturbance.h"
+#include "reed/plant/dynamics/modes.h"
+#include "reed/plant/dynamics/wall.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed::plant {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/plant_dynamics/bench.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed::plant {
 namespace {

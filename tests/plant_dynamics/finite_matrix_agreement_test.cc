@@ -1,10 +1,10 @@
 // The bending plant at rest against the controller's finite matrix analysis (4)-(6): two routes, one arm.
 #include <gtest/gtest.h>
 
-#include "firmware/model/finite_matrix_arm.h"
-#include "firmware/model/nodal_compensation.h"
-#include "plant_sim/dynamics/modes.h"
-#include "tests/plant_dynamics/bench.h"
+#include "reed/core/model/nodal_compensation.h"
+#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/plant/dynamics/modes.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed {
 namespace {

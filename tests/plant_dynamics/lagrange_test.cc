@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "plant_sim/dynamics/equations_of_motion.h"
-#include "tests/plant_dynamics/bench.h"
+#include "reed/plant/dynamics/equations_of_motion.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed::plant {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "plant_sim/dynamics/modes.h"
-#include "tests/plant_dynamics/bench.h"
+#include "reed/plant/dynamics/modes.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace {
 

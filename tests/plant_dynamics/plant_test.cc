@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/plant_dynamics/bench.h"
-#include "tests/support/no_alloc.h"
+#include "reed/tests/plant_dynamics/bench.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::plant {
 namespace {

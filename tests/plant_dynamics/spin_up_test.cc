@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/plant_dynamics/bench.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed::plant {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "plant_sim/dynamics/modes.h"
-#include "tests/plant_dynamics/bench.h"
+#include "reed/plant/dynamics/modes.h"
+#include "reed/tests/plant_dynamics/bench.h"
 
 namespace reed::plant {
 namespace {

@@ -1,4 +1,4 @@
-#include "config/schema/cores.h"
+#include "reed/config/description/cores.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <random>
 
-#include "plant_sim/drive/drive_chain.h"
-#include "plant_sim/drive/drive_state.h"
-#include "plant_sim/drive/torque_output.h"
+#include "reed/plant/drive/drive_chain.h"
+#include "reed/plant/drive/drive_state.h"
+#include "reed/plant/drive/torque_output.h"
 
 namespace reed::plant {
 namespace {

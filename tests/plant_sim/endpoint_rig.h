@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
-#include "plant_sim/endpoint/lockstep_endpoint.h"
-#include "plant_sim/endpoint/wall_endpoint.h"
+#include "reed/bus/codec/messages.h"
+#include "reed/plant/endpoint/lockstep_endpoint.h"
+#include "reed/plant/endpoint/realtime_endpoint.h"
+#include "reed/tests/support/fake_transport.h"
 #include "reed_layout.h"
-#include "tests/support/fake_transport.h"
 
 namespace reed::plant {
 

@@ -1,7 +1,7 @@
 // What a plant in lockstep does about damaged frames, other controllers, a diverging arm and a lost bus.
 #include <limits>
 
-#include "tests/plant_sim/lockstep_rig.h"
+#include "reed/tests/plant_sim/lockstep_rig.h"
 
 namespace reed::plant {
 namespace {

@@ -2,7 +2,7 @@
 #include <bit>
 #include <cstring>
 
-#include "tests/plant_sim/lockstep_rig.h"
+#include "reed/tests/plant_sim/lockstep_rig.h"
 
 namespace reed::plant {
 namespace {

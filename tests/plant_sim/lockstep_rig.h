@@ -1,7 +1,7 @@
 // A plant in lockstep on a fake wire.
 #pragma once
 
-#include "tests/plant_sim/endpoint_rig.h"
+#include "reed/tests/plant_sim/endpoint_rig.h"
 
 namespace reed::plant {
 

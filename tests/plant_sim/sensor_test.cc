@@ -5,10 +5,10 @@
 #include <random>
 #include <vector>
 
-#include "plant_sim/sensor/encoder.h"
-#include "plant_sim/sensor/random_stream.h"
-#include "plant_sim/sensor/velocity_filter.h"
-#include "plant_sim/sensor/wrench_sensor.h"
+#include "reed/plant/sensor/encoder.h"
+#include "reed/plant/sensor/random_stream.h"
+#include "reed/plant/sensor/velocity_filter.h"
+#include "reed/plant/sensor/wrench_sensor.h"
 
 namespace reed::plant {
 namespace {

@@ -1,5 +1,5 @@
 // The watch against a thread that really takes its core away, from above and from below.
-#include "plant_sim/process/stall_watch.h"
+#include "reed/plant/process/stall_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <chrono>
 #include <optional>
 
-#include "bus/monotonic.h"
-#include "config/schema/cores.h"
-#include "plant_sim/process/thread_rights.h"
+#include "reed/config/description/cores.h"
+#include "reed/plant/process/thread_rights.h"
+#include "reed/rt/monotonic.h"
 
 namespace reed::plant {
 namespace {
@@ -22,8 +22,8 @@ bool Hog(int priority, std::int64_t for_ns) {
   bool granted = false;
   std::thread([&] {
     granted = PinTo(LoopCore({})) && RaiseTo(priority);
-    const std::int64_t end_ns = bus::NowNs() + for_ns;
-    while (granted && bus::NowNs() < end_ns) {
+    const std::int64_t end_ns = rt::NowNs() + for_ns;
+    while (granted && rt::NowNs() < end_ns) {
     }
   }).join();
   return granted;

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "plant_sim/telemetry/publisher.h"
-#include "plant_sim/telemetry/rate_limit.h"
-#include "plant_sim/telemetry/record_queue.h"
+#include "reed/plant/record/publisher.h"
+#include "reed/plant/record/rate_limit.h"
+#include "reed/plant/record/record_queue.h"
 
 namespace reed::plant {
 namespace {

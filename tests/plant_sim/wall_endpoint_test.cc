@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/plant_sim/endpoint_rig.h"
+#include "reed/tests/plant_sim/endpoint_rig.h"
 
 namespace reed::plant {
 namespace {

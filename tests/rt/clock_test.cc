@@ -1,4 +1,4 @@
-#include "firmware/rt/clock.h"
+#include "reed/rt/clock.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

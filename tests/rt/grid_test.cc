@@ -1,12 +1,12 @@
-#include "firmware/rt/grid.h"
+#include "reed/rt/grid.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "firmware/rt/overrun.h"
-#include "firmware/rt/virtual_clock.h"
+#include "reed/rt/overrun.h"
+#include "reed/rt/virtual_clock.h"
 
 namespace reed::rt {
 namespace {

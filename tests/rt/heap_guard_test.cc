@@ -1,4 +1,4 @@
-#include "firmware/rt/heap_guard.h"
+#include "reed/rt/heap_guard.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

@@ -1,4 +1,4 @@
-#include "firmware/rt/latest_value.h"
+#include "reed/rt/latest_value.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "firmware/rt/realtime_scope.h"
+#include "reed/rt/realtime_scope.h"
 
 #include <gtest/gtest.h>
 #include <linux/filter.h>
@@ -18,7 +18,7 @@
 #include <string>
 #include <thread>
 
-#include "firmware/rt/usage.h"
+#include "reed/rt/usage.h"
 
 namespace reed::rt {
 namespace {

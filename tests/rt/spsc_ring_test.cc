@@ -1,4 +1,4 @@
-#include "firmware/rt/spsc_ring.h"
+#include "reed/rt/spsc_ring.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/support/no_alloc.h"
+#include "reed/tests/support/no_alloc.h"
 
 namespace reed::rt {
 namespace {

@@ -1,5 +1,5 @@
 // The filter in a child process: what a cycle needs passes, everything else ends the program.
-#include "firmware/rt/syscall_guard.h"
+#include "reed/rt/syscall_guard.h"
 
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
@@ -9,8 +9,8 @@
 #include <csignal>
 #include <thread>
 
-#include "firmware/rt/clock.h"
-#include "firmware/rt/usage.h"
+#include "reed/rt/clock.h"
+#include "reed/rt/usage.h"
 
 namespace reed::rt {
 namespace {

@@ -1,4 +1,4 @@
-#include "firmware/strategy/collision.h"
+#include "reed/core/estimate/collision.h"
 
 #include <gtest/gtest.h>
 

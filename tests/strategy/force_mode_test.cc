@@ -1,6 +1,6 @@
 // Force mode against a spring wall in virtual time: seek, latch, track, and no wind-up behind the speed
 // limit.
-#include "firmware/strategy/force_mode.h"
+#include "reed/core/contact/force_mode.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // The separation (Fig. 7) cycle by cycle, without an arm: who is in charge, and no jump where one takes over.
-#include "firmware/strategy/force_source.h"
+#include "reed/core/contact/force_source.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware/strategy/normal_force.h"
+#include "reed/core/contact/normal_force.h"
 
 namespace reed::strategy {
 namespace {

@@ -1,9 +1,9 @@
 // Every law by name: what it commands at one state, and what it learns from it.
-#include "firmware/strategy/law_bank.h"
+#include "reed/core/law/law_bank.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/arms.h"
+#include "reed/tests/support/arms.h"
 
 namespace reed::strategy {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/firmware/sil_rig.h"
+#include "reed/tests/firmware/sil_rig.h"
 
 namespace reed {
 namespace {

@@ -1,5 +1,5 @@
 // (51), (52): the stiffness of a spring that is pressed and slid along, and what stays out of the estimate.
-#include "firmware/strategy/wall_stiffness.h"
+#include "reed/core/contact/wall_stiffness.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "config/schema/arm_description.h"
+#include "reed/config/description/arm_description.h"
 
 namespace reed::test {
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "bus/transport.h"
+#include "reed/bus/transport/transport.h"
 
 namespace reed::test {
 

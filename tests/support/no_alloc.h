@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/rt/heap_guard.h"
+#include "reed/rt/heap_guard.h"
 
 namespace reed::test {
 

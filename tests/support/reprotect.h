@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bus/e2e_profile5.h"
-#include "bus/frame.h"
+#include "reed/bus/codec/e2e_profile5.h"
+#include "reed/bus/frame/frame.h"
 #include "reed_layout.h"
 
 namespace reed::test {

@@ -1,11 +1,11 @@
-#include "firmware/telemetry/encode.h"
+#include "reed/firmware/record/encode.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "tests/support/no_alloc.h"
-#include "tests/telemetry/sample_snapshot.h"
+#include "reed/tests/support/no_alloc.h"
+#include "reed/tests/telemetry/sample_snapshot.h"
 
 namespace reed::telemetry {
 namespace {

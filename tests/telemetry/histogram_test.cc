@@ -1,4 +1,4 @@
-#include "firmware/telemetry/histogram.h"
+#include "reed/firmware/record/histogram.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "firmware/telemetry/encode.h"
-#include "firmware/telemetry/timing_histograms.h"
+#include "reed/firmware/record/encode.h"
+#include "reed/firmware/record/timing_histograms.h"
 
 namespace reed::telemetry {
 namespace {

@@ -10,9 +10,9 @@
 #include <set>
 #include <string>
 
-#include "firmware/rt/clock.h"
-#include "firmware/telemetry/recorder.h"
-#include "tests/telemetry/sample_snapshot.h"
+#include "reed/firmware/record/recorder.h"
+#include "reed/rt/clock.h"
+#include "reed/tests/telemetry/sample_snapshot.h"
 
 namespace reed::telemetry {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "firmware/telemetry/recorder.h"
-#include "tests/telemetry/sample_snapshot.h"
+#include "reed/firmware/record/recorder.h"
+#include "reed/tests/telemetry/sample_snapshot.h"
 
 int main(int argc, char** argv) {
   using namespace reed::telemetry;

@@ -1,4 +1,4 @@
-#include "firmware/telemetry/recorder.h"
+#include "reed/firmware/record/recorder.h"
 
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
@@ -14,7 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/telemetry/sample_snapshot.h"
+#include "reed/tests/telemetry/sample_snapshot.h"
 
 namespace reed::telemetry {
 namespace {

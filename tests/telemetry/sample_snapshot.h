@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "firmware/telemetry/snapshot.h"
+#include "reed/firmware/snapshot/snapshot.h"
 
 namespace reed::test {
 

@@ -2,8 +2,8 @@
 // plant, virtual time.
 #include <gtest/gtest.h>
 
-#include "tests/firmware/sil_rig.h"
-#include "tests/support/reprotect.h"
+#include "reed/tests/firmware/sil_rig.h"
+#include "reed/tests/support/reprotect.h"
 
 namespace reed {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "firmware/cycle_base.h"
-#include "firmware/rt/virtual_clock.h"
+#include "reed/firmware/cycle/cycle_base.h"
+#include "reed/rt/virtual_clock.h"
 
 namespace reed::test {
 

@@ -4,8 +4,8 @@
 #include <reed/event_t.hpp>
 #include <string>
 
-#include "firmware/telemetry/encode.h"
-#include "tests/timing/wall_loop_rig.h"
+#include "reed/firmware/record/encode.h"
+#include "reed/tests/timing/wall_loop_rig.h"
 
 namespace reed {
 namespace {

@@ -1,6 +1,6 @@
 // One system call that waits for so many datagrams and ends at an exact time. Skipped where the kernel
 // forbids io_uring, as containers do: the transports then wait with ppoll.
-#include "bus/uring_receiver.h"
+#include "reed/bus/transport/uring_receiver.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <cstring>
 #include <thread>
 
-#include "bus/udp_transport.h"
-#include "firmware/rt/clock.h"
+#include "reed/bus/transport/udp_transport.h"
+#include "reed/rt/clock.h"
 
 namespace reed::bus {
 namespace {

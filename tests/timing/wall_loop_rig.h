@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "firmware/wall_loop.h"
-#include "tests/timing/fake_cycle.h"
+#include "reed/firmware/loop/realtime_loop.h"
+#include "reed/tests/timing/fake_cycle.h"
 
 namespace reed {
 

@@ -1,4 +1,4 @@
-#include "tools/inspect/arm_inspector.h"
+#include "reed/inspect/arm_inspector.h"
 
 #include <stdexcept>
 #include <string>

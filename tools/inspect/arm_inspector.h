@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "config/schema/arm_description.h"
-#include "tools/inspect/named_values.h"
+#include "reed/config/description/arm_description.h"
+#include "reed/inspect/named_values.h"
 
 namespace reed::inspect {
 

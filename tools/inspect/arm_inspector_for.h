@@ -2,10 +2,10 @@
 // which instantiate it, so that the recursions are compiled once per number of joints. RT: set-up only.
 #pragma once
 
-#include "tools/inspect/arm_inspector.h"
-#include "tools/inspect/control_cases.h"
-#include "tools/inspect/elastic_cases.h"
-#include "tools/inspect/rigid_cases.h"
+#include "reed/inspect/arm_inspector.h"
+#include "reed/inspect/control_cases.h"
+#include "reed/inspect/elastic_cases.h"
+#include "reed/inspect/rigid_cases.h"
 
 namespace reed::inspect {
 

@@ -1,4 +1,4 @@
-#include "tools/inspect/case_file.h"
+#include "reed/inspect/case_file.h"
 
 #include <istream>
 #include <limits>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/inspect/named_values.h"
+#include "reed/inspect/named_values.h"
 
 namespace reed::inspect {
 

@@ -1,12 +1,12 @@
 // The laws (22)-(41) of a case, by the functions that the loop calls. RT: set-up only.
 #pragma once
 
-#include "firmware/control/force_loop.h"
-#include "firmware/control/known_force.h"
-#include "firmware/control/normal_direction.h"
-#include "firmware/control/surface.h"
-#include "firmware/control/unknown_force.h"
-#include "tools/inspect/rigid_cases.h"
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/contact/normal_direction.h"
+#include "reed/core/law/known_force.h"
+#include "reed/core/law/surface.h"
+#include "reed/core/law/unknown_force.h"
+#include "reed/inspect/rigid_cases.h"
 
 namespace reed::inspect {
 

@@ -1,10 +1,10 @@
 // Compliance and static deflection (4)-(6), (22) of a case. RT: set-up only.
 #pragma once
 
-#include "firmware/model/finite_matrix_arm.h"
-#include "firmware/model/nodal_compensation.h"
-#include "firmware/model/semidefinite_solver.h"
-#include "tools/inspect/rigid_cases.h"
+#include "reed/core/model/nodal_compensation.h"
+#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/firmware/stiffness/semidefinite_solver.h"
+#include "reed/inspect/rigid_cases.h"
 
 namespace reed::inspect {
 

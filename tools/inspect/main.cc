@@ -3,10 +3,10 @@
 #include <fstream>
 #include <iostream>
 
-#include "config/schema/arm_file.h"
-#include "tools/inspect/arm_inspector.h"
-#include "tools/inspect/case_file.h"
-#include "tools/inspect/modes_query.h"
+#include "reed/config/schema/arm_file.h"
+#include "reed/inspect/arm_inspector.h"
+#include "reed/inspect/case_file.h"
+#include "reed/inspect/modes_query.h"
 
 namespace {
 

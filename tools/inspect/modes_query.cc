@@ -1,4 +1,4 @@
-#include "tools/inspect/modes_query.h"
+#include "reed/inspect/modes_query.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <ostream>
 #include <sstream>
 
-#include "plant_sim/dynamics/modes.h"
-#include "tools/inspect/named_values.h"
+#include "reed/inspect/named_values.h"
+#include "reed/plant/dynamics/modes.h"
 
 namespace reed::inspect {
 namespace {

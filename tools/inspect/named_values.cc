@@ -1,4 +1,4 @@
-#include "tools/inspect/named_values.h"
+#include "reed/inspect/named_values.h"
 
 namespace reed::inspect {
 

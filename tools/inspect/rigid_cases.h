@@ -1,9 +1,9 @@
 // Kinematics (1)-(3), rigid dynamics (20) and regressor (28) of a case. RT: set-up only.
 #pragma once
 
-#include "firmware/model/dynamics.h"
-#include "firmware/model/regressor.h"
-#include "tools/inspect/named_values.h"
+#include "reed/core/model/dynamics.h"
+#include "reed/core/model/regressor.h"
+#include "reed/inspect/named_values.h"
 
 namespace reed::inspect {
 

@@ -1,0 +1,110 @@
+// Force mode: seek the wall, latch on the first contact, track the desired force with gains that fit the
+// wall. The only place that knows when the normal direction belongs to the force. RT: safe.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/contact/wall_stiffness.h"
+#include "reed/core/reference/force_profile.h"
+
+namespace reed::strategy {
+
+struct ForceModeConfig {
+  control::ForceGains gains;
+  double threshold_N = 1.0;
+  double approach_speed_mps = 0.01;
+  double speed_limit_mps = 0.03;
+  bool schedule = false;                        // k_p follows the estimated stiffness (52)
+  double bandwidth_radps = 60.0;                // ω_f of (52)
+  double approach_time_s = 0.1;                 // the approach speed is reached this smoothly
+  double least_k_p = 0.5e-3, most_k_p = 30e-3;  // m/(s·N), bounds of (52)
+};
+
+/// What the force mode wants of the law this cycle.
+struct ForceDemand {
+  bool active = false;       // the normal direction belongs to the force loop
+  bool latched_now = false;  // contact was made in this cycle
+  bool speed_limited = false;
+  double f_d = 0.0;  // N
+  double e_f = 0.0;  // N, 0 before contact
+  double z = 0.0, z_dot = 0.0;
+};
+
+class ForceMode {
+ public:
+  ForceMode(const ForceModeConfig& config, const reference::ForceProfile& profile, double T) noexcept
+      : config_(config), profile_(profile), wall_(config.bandwidth_radps / config.gains.k_p, T), T_(T) {}
+
+  void Reset() noexcept {
+    state_ = {};
+    contact_s_ = kNoContact;
+    wall_.Reset();
+  }
+  bool in_contact() const noexcept { return contact_s_ < kNoContact; }
+  bool Wanted(double t_s) const noexcept { return profile_.Wanted(t_s); }
+  const control::ForceState& state() const noexcept { return state_; }
+  double wall_stiffness() const noexcept { return wall_.value(); }
+
+  /// f: normal force as known now, N. x: normal tip position by motor angles, m. pace: share of the
+  /// bandwidth, below 1 where f comes late. sensed: f is measured, not observed.
+  ForceDemand Step(double t_s, double f, double x, double pace, bool sensed = true) noexcept {
+    ForceDemand demand;
+    if (!profile_.Wanted(t_s) && !(sensed && Early(t_s, f))) {
+      Reset();
+      return demand;
+    }
+    demand.active = true;
+    if (!in_contact() && f > config_.threshold_N) {
+      contact_s_ = t_s;
+      demand.latched_now = true;
+    }
+    double wanted = 0.0;  // normal speed into the wall
+    if (in_contact()) {
+      if (pace > kPromptPace) wall_.Step(f, x);  // a late f would tell a wrong stiffness
+      demand.f_d = profile_.At(t_s, contact_s_);
+      demand.e_f = demand.f_d - f;
+      wanted = control::NormalSpeed(Gains(pace), demand.e_f, state_.e_f_integral);
+    } else {
+      wanted = config_.approach_speed_mps *
+               reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
+    }
+    const double allowed = std::clamp(wanted, -config_.speed_limit_mps, config_.speed_limit_mps);
+    demand.speed_limited = allowed != wanted;
+    // Anti-windup: no more of what the limit already refuses.
+    if (in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
+      state_.e_f_integral += T_ * demand.e_f;
+    demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
+    demand.z = state_.z;
+    // Exact step of ż = a (u − z): stable for any a T.
+    state_.z = allowed + (state_.z - allowed) * std::exp(-config_.gains.a * T_);
+    return demand;
+  }
+
+  /// (52): k_i keeps its ratio to k_p, so that k_i < a k_p holds on every wall.
+  control::ForceGains Gains(double pace) const noexcept {
+    const double k_p = config_.schedule ? std::clamp(config_.bandwidth_radps / wall_.value(),
+                                                     config_.least_k_p, config_.most_k_p)
+                                        : config_.gains.k_p;
+    return {pace * k_p, pace * pace * config_.gains.k_i * k_p / config_.gains.k_p, config_.gains.a};
+  }
+
+ private:
+  /// Contact before its time, on a wall that is higher than believed: touched with f_d = 0, not pushed
+  /// through by position.
+  bool Early(double t_s, double f) const noexcept {
+    return profile_.desired_N > 0.0 && t_s < profile_.start_s && (in_contact() || f > config_.threshold_N);
+  }
+
+  static constexpr double kNoContact = 1e12;
+  static constexpr double kPromptPace = 0.99;
+  ForceModeConfig config_;
+  reference::ForceProfile profile_;
+  WallStiffness wall_;
+  double T_;
+  control::ForceState state_;
+  double contact_s_ = kNoContact;
+};
+
+}  // namespace reed::strategy

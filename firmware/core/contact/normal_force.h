@@ -1,0 +1,79 @@
+// The normal force as the strategy knows it: from the wrist sensor or from the momentum observer, without a
+// jump where one takes over from the other. RT: safe.
+//
+//   sensor    f = nᵀ(F − zero); the zero is the mean of 64 readings at rest, retaken when frames return to an
+//             arm that touches nothing until the sensor is trusted again
+//   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
+//   motion,
+//             slowly while the wall is sought, and stands still in contact without a sensor
+//   at a change of source the difference of both is carried over and forgotten with kForget_s
+#pragma once
+
+#include <cmath>
+
+#include "reed/core/contact/force_source.h"
+#include "reed/core/contact/force_tare.h"
+
+namespace reed::strategy {
+
+class NormalForce {
+ public:
+  NormalForce(const Eigen::Vector3d& normal, double T) noexcept
+      : normal_(normal),
+        tare_share_(-std::expm1(-T / kTare_s)),
+        seek_share_(-std::expm1(-T / kSeek_s)),
+        forget_(std::exp(-T / kForget_s)) {}
+
+  /// At rest and free. force: as read.
+  void Settle(const Eigen::Vector3d& force, bool fresh) noexcept {
+    if (fresh) zero_.Take(force);
+    carried_ = 0.0;
+    tare_ = 0.0;
+  }
+  bool settled() const noexcept { return zero_.complete(); }
+
+  /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the
+  /// source waits for. That wait is longer than the rise of a contact: an arm that met the wall meanwhile
+  /// keeps its old zero, else it would take the wall's force for none.
+  void Retare(const Eigen::Vector3d& force, int fresh_in_row, bool free) noexcept {
+    if (fresh_in_row == 1) {
+      returned_ = {};
+      stayed_free_ = true;
+    }
+    stayed_free_ = stayed_free_ && free;
+    returned_.Take(force);
+    if (stayed_free_ && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
+  }
+
+  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N.
+  double Step(ForceSource source, const Eigen::Vector3d& read, const Eigen::Vector3d& observed,
+              bool in_contact) noexcept {
+    const bool sensor = source == ForceSource::kKnown;
+    const double by_sensor = normal_.dot(zero_.Apply(read));
+    const double by_observer = normal_.dot(observed);
+    if (sensor) tare_ += tare_share_ * (by_observer - by_sensor - tare_);
+    if (!sensor && !in_contact) {
+      const double share = source == ForceSource::kObserver ? seek_share_ : tare_share_;
+      tare_ += share * (by_observer - tare_);
+    }
+    const double raw = sensor ? by_sensor : by_observer - tare_;
+    carried_ *= forget_;
+    if (sensor != sensor_before_ && in_contact) carried_ = f_ - raw;
+    sensor_before_ = sensor;
+    f_ = raw + carried_;
+    return f_;
+  }
+
+ private:
+  static constexpr double kTare_s = 0.1;    // faster than the weight changes
+  static constexpr double kSeek_s = 1.0;    // while the wall is sought: slower than the rise of a contact
+  static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
+  Eigen::Vector3d normal_;
+  double tare_share_, seek_share_, forget_;
+  ForceTare zero_, returned_;
+  bool stayed_free_ = false;
+  double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
+  bool sensor_before_ = true;
+};
+
+}  // namespace reed::strategy

@@ -1,0 +1,163 @@
+// The laws by name. Each is two torques and two updates, for known and unknown force; chosen once at set-up
+// as plain function pointers, so that a cycle asks nothing and every law takes the same time every cycle.
+//
+//   separated        robust: (30)-(34) and (36), (40), (41), Coulomb friction (48)
+//   pd, pd_tuned     PD with the paper's gains, with the scenario's gains
+//   computed_torque  model inverse with p₀
+//   fixed_nominal    separated with nothing learnt: p̂ = p₀, same gains, same force loop
+//   paper_printed    (31)-(34), (36)-(41) as printed, the paper's gains
+//   paper_corrected  the same corrected, the paper's gains, no dead-zone, no leak
+//
+// RT: safe; LawBank::Find is set-up.
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "reed/core/law/adaptive_state.h"
+#include "reed/core/law/computed_torque.h"
+#include "reed/core/law/paper_printed.h"
+#include "reed/core/law/pd.h"
+#include "reed/core/model/regressor.h"
+
+namespace reed::strategy {
+
+/// What a law may look at this cycle.
+template <int N, int P>
+struct LawInput {
+  const Gains<N, P>& gains;
+  const model::ArmModel<N, P>& arm;
+  const control::Auxiliary<N>& aux;
+  const model::Vec<N>& s;
+  const model::Regressor<N, P>& regressor;  // at (v, v̇) of aux
+  const model::Vec<N>& JtF_d;               // 0 unless the arm presses
+  const model::Vec<N>& r;                   // observed disturbance; 0 where it must not be subtracted
+  double T;
+};
+
+template <int N, int P>
+struct Law {
+  using Torque = model::Vec<N> (*)(const LawInput<N, P>&, const AdaptiveState<N, P>&) noexcept;
+  using Learn = void (*)(const LawInput<N, P>&, AdaptiveState<N, P>&) noexcept;
+  const char* name;
+  Torque known, unknown;
+  Learn learn_known, learn_unknown;
+  bool force_loop;     // the force error enters v (30)
+  bool acceleration;   // v, v̇ are θ̇ and ComputedAcceleration: computed torque
+  bool nodal_allowed;  // θ_d may be corrected by the model's deflection
+};
+
+template <int N, int P>
+class LawBank {
+ public:
+  using In = LawInput<N, P>;
+  using State = AdaptiveState<N, P>;
+  using V = model::Vec<N>;
+
+  /// Throws std::runtime_error for a name that is none.
+  static const Law<N, P>& Find(const std::string& name) {
+    for (const Law<N, P>& law : kLaws)
+      if (name == law.name) return law;
+    throw std::runtime_error("control.law: \"" + name + "\" is no law");
+  }
+
+ private:
+  static V Friction(const In& in, const State& x) noexcept {
+    return control::CoulombTorque<N>(x.kappa_hat, in.aux.v, in.gains.friction_speed);  // (48)
+  }
+  static V Sliding(const In& in, const State& x) noexcept {
+    return control::SlidingTerm<N>(x.sigma_0, x.sigma_1, in.gains.sliding.scale, in.s,
+                                   control::Saturate(in.s, in.gains.sliding.phi));  // (36)
+  }
+  static V RobustKnown(const In& in, const State& x) noexcept {
+    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat), in.JtF_d,
+                                        in.gains.K_d, in.s) +
+           Sliding(in, x) + Friction(in, x);
+  }
+  static V RobustUnknown(const In& in, const State& x) noexcept {
+    const V sliding = Sliding(in, x);
+    return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat),
+                                          in.gains.K_d, in.s, sliding) +
+           Friction(in, x) - in.r;
+  }
+  static V Pd(const In& in, const State&) noexcept { return control::PdTorque<N>(in.gains.K_d, in.s); }
+  static V Computed(const In& in, const State& x) noexcept {
+    return control::ComputedTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat));
+  }
+  static V FixedKnown(const In& in, const State& x) noexcept {
+    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat), in.JtF_d,
+                                        in.gains.K_d, in.s);
+  }
+  static V FixedUnknown(const In& in, const State& x) noexcept {
+    return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat),
+                                          in.gains.K_d, in.s, V::Zero().eval());
+  }
+  static V PrintedKnown(const In& in, const State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, Yts);
+    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat), in.JtF_d,
+                                        in.gains.K_d, in.s);
+  }
+  static V PrintedUnknown(const In& in, const State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, Yts);
+    return control::PrintedUnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat),
+                                                 x.sigma_0, x.sigma_1, in.s);
+  }
+  static V CorrectedUnknown(const In& in, const State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    const model::Vec<P> sign_Yts = control::Saturate(Yts, in.gains.sliding.phi);
+    const model::Vec<P> p_hat = control::WorstCaseParameters<P>(in.gains.p_0, x.eta_hat, sign_Yts);
+    const V sliding = Sliding(in, x);
+    return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat),
+                                          in.gains.K_d, in.s, sliding);
+  }
+
+  static void LearnRobustKnown(const In& in, State& x) noexcept {
+    x.UpdateParameters(in.gains, in.gains.Gamma_known, in.arm, in.regressor.Y, in.s, in.T);
+    x.UpdateFriction(in.gains, in.gains.Gamma_c_known, in.aux.v, in.s, in.T);
+    x.UpdateSliding(in.gains, in.s, in.T);
+  }
+  static void LearnRobustUnknown(const In& in, State& x) noexcept {
+    x.UpdateParameters(in.gains, in.gains.Gamma_unknown, in.arm, in.regressor.Y, in.s, in.T);
+    x.UpdateFriction(in.gains, in.gains.Gamma_c_unknown, in.aux.v, in.s, in.T);
+    x.UpdateSliding(in.gains, in.s, in.T);
+  }
+  static void LearnNothing(const In&, State&) noexcept {}
+  static void LearnPrintedKnown(const In& in, State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    x.eta_hat = control::PrintedEta<P>(in.gains.Gamma_known, Yts);
+  }
+  static void LearnPrintedUnknown(const In& in, State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts);
+    x.sigma_0 = control::PrintedSigma<N>(in.gains.sliding.c_0, in.s);
+    x.sigma_1 = control::PrintedSigma<N>(in.gains.sliding.c_1, in.s);
+  }
+  static void LearnCorrectedKnown(const In& in, State& x) noexcept {
+    x.p_hat += in.T * control::KnownForceUpdate<N, P>(in.gains.Gamma_known, in.regressor.Y, in.s);
+  }
+  static void LearnCorrectedUnknown(const In& in, State& x) noexcept {
+    const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
+    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts);
+    x.sigma_0 += in.T * control::Sigma0Rate<N>(in.gains.sliding.c_0, in.s);
+    x.sigma_1 += in.T * control::Sigma1Rate<N>(in.gains.sliding.c_1, in.s);
+  }
+
+  // name, torque known / unknown, learn known / unknown, force loop, computed acceleration, nodal
+  // displacement
+  static constexpr std::array<Law<N, P>, 7> kLaws{{
+      {"separated", RobustKnown, RobustUnknown, LearnRobustKnown, LearnRobustUnknown, true, false, true},
+      {"pd", Pd, Pd, LearnNothing, LearnNothing, false, false, false},
+      {"pd_tuned", Pd, Pd, LearnNothing, LearnNothing, false, false, false},
+      {"computed_torque", Computed, Computed, LearnNothing, LearnNothing, false, true, false},
+      {"fixed_nominal", FixedKnown, FixedUnknown, LearnNothing, LearnNothing, true, false, true},
+      {"paper_printed", PrintedKnown, PrintedUnknown, LearnPrintedKnown, LearnPrintedUnknown, false, false,
+       false},
+      {"paper_corrected", FixedKnown, CorrectedUnknown, LearnCorrectedKnown, LearnCorrectedUnknown, true,
+       false, false},
+  }};
+};
+
+}  // namespace reed::strategy

@@ -1,0 +1,81 @@
+// What pulls on the elastic structure: a wrench at the tool point and the weight of the links, spread over
+// the members. The finite matrix analysis and the serial form take the same loads. Base axes, SI. RT: safe.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "reed/core/model/dynamics.h"
+
+namespace reed::model {
+
+/// Load on one member: a force on its start node, a force spread evenly over its length, a wrench on its end
+/// node.
+struct MemberLoad {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d spread = Eigen::Vector3d::Zero();
+  Wrench end;
+};
+
+template <int N>
+struct StructuralLoads {
+  Wrench tip;                            // of the environment on the tool point, moment about it
+  FixedArray<MemberLoad, 2 * N> member;  // by member index
+  FixedArray<Wrench, N> rigid_link;      // on the origin of links that have no member
+};
+
+/// How a body's mass m lies on its member: part on the start node, part evenly spread, part on the end node,
+/// so that mass, first and second moment along the axis are the body's. What is off the axis becomes a couple
+/// at the end.
+///   m = m_s + m_u + m_e,   μ₁ = m_u L/2 + m_e L,   μ₂ = m_u L²/3 + m_e L²
+/// A beam's end slope under weight depends on μ₂ alone, so it is exact; uniform rods and tip masses are exact
+/// throughout.
+struct MassOnMember {
+  double start = 0.0, spread = 0.0, end = 0.0;
+  Eigen::Vector3d off_axis = Eigen::Vector3d::Zero();  // first moment about the axis, link axes
+};
+
+inline MassOnMember LayOnMember(const MassMoments& body, const Member& beam) {
+  const int t = beam.axis;
+  const double s = beam.start_at, L = beam.length;
+  const double mu1 = beam.sign() * (body.h(t) - body.m * s);
+  const double mu2 = body.J(t, t) - 2.0 * s * body.h(t) + s * s * body.m;
+  MassOnMember mass;
+  mass.spread = 6.0 * (mu1 / L - mu2 / (L * L));
+  mass.end = mu1 / L - 0.5 * mass.spread;
+  mass.start = body.m - mass.spread - mass.end;
+  mass.off_axis = body.h;
+  mass.off_axis(t) = 0.0;
+  return mass;
+}
+
+/// Adds the weight of the bodies.
+template <int N, int P>
+void AddBodyWeight(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const Bodies<N>& bodies,
+                   StructuralLoads<N>& loads) {
+  const Eigen::Vector3d& g = arm.gravity;
+  for (int i = 0; i < N; ++i) {
+    const MassMoments& body = bodies.link[i];
+    if (arm.carrier[i] < 0) {
+      loads.rigid_link[i].F += body.m * g;
+      loads.rigid_link[i].n += (kin.R[i] * body.h).cross(g);
+      continue;
+    }
+    const MassOnMember mass = LayOnMember(body, arm.member[arm.carrier[i]]);
+    MemberLoad& load = loads.member[arm.carrier[i]];
+    load.start += mass.start * g;
+    load.spread += mass.spread * g;
+    load.end.F += mass.end * g;
+    load.end.n += (kin.R[i] * mass.off_axis).cross(g);
+  }
+}
+
+/// Adds the self-weight of the bare members, ρA g per length.
+template <int N, int P>
+void AddSelfWeight(const ArmModel<N, P>& arm, StructuralLoads<N>& loads) {
+  for (int j = 0; j < arm.num_members; ++j) {
+    loads.member[j].spread += arm.member[j].rhoA * arm.member[j].length * arm.gravity;
+  }
+}
+
+}  // namespace reed::model

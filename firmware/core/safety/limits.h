@@ -1,0 +1,100 @@
+// The last gate before the bus: whatever the law wants, no torque leaves here that is too large, too fast,
+// not finite, or meant for a state the arm should not be in. RT: safe.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "reed/core/safety/reason.h"
+
+namespace reed::protect {
+
+template <int N>
+using Vec = Eigen::Matrix<double, N, 1>;
+
+template <int N>
+struct LimitValues {
+  Vec<N> torque = Vec<N>::Zero();        // N·m, symmetric
+  double torque_step = 0.0;              // N·m per cycle
+  Vec<N> position_min = Vec<N>::Zero();  // rad, half the margin taken off
+  Vec<N> position_max = Vec<N>::Zero();
+  Vec<N> speed = Vec<N>::Zero();  // rad/s
+  double contact_force = 0.0;     // N
+  int hold_age = 0;               // cycles
+  int stop_age = 0;               // cycles
+};
+
+/// What the gate found. A trip names the first reason and where; limits is the bit set of those that act.
+struct Verdict {
+  Reason trip = Reason::kNone;
+  int joint = -1;
+  double value = 0.0;
+  std::int32_t limits = 0;
+};
+
+template <int N>
+class Limits {
+ public:
+  explicit Limits(const LimitValues<N>& values) noexcept : limit_(values) {}
+
+  /// Is the arm where torque may flow? Position, speed, contact force, age of the oldest joint.
+  Verdict Judge(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
+                int oldest_joint) const noexcept {
+    for (int i = 0; i < N; ++i) {
+      if (!(theta[i] >= limit_.position_min[i] && theta[i] <= limit_.position_max[i]))
+        return {Reason::kJointPosition, i, theta[i], 0};
+      if (!(std::abs(theta_dot[i]) <= limit_.speed[i])) return {Reason::kJointSpeed, i, theta_dot[i], 0};
+    }
+    if (!(contact_force <= limit_.contact_force)) return {Reason::kContactForce, -1, contact_force, 0};
+    if (TooOld(oldest_age))
+      return {Reason::kStaleMeasurement, oldest_joint, static_cast<double>(oldest_age), 0};
+    return {};
+  }
+
+  /// Beyond holding and ramping down.
+  bool TooOld(int age) const noexcept { return age > 2 * limit_.stop_age; }
+
+  /// The torque that may be sent instead of `tau_law`. Measurements beyond hold_age: the last torque is held;
+  /// beyond stop_age: it ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
+  Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, Verdict& verdict) noexcept {
+    for (int i = 0; i < N; ++i) {
+      if (std::isfinite(tau_law[i])) continue;
+      verdict = {Reason::kNotFinite, i, tau_law[i], 0};
+      return Release();
+    }
+
+    Vec<N> tau = tau_law;
+    if (oldest_age <= limit_.stop_age) held_ = sent_;
+    if (oldest_age > limit_.stop_age) {
+      const double left = 1.0 - static_cast<double>(oldest_age - limit_.stop_age) / limit_.stop_age;
+      tau = held_ * (left > 0.0 ? left : 0.0);
+      verdict.limits |= LimitBit(Reason::kRampDown);
+    } else if (oldest_age > limit_.hold_age) {
+      tau = held_;  // the law would act on the past: stay with the last torque that was based on fresh values
+      verdict.limits |= LimitBit(Reason::kHeldMeasurement);
+    }
+    const Vec<N> bounded = tau.cwiseMax(-limit_.torque).cwiseMin(limit_.torque);
+    if (bounded != tau) verdict.limits |= LimitBit(Reason::kTorque);
+    const Vec<N> wanted = bounded - sent_;
+    const Vec<N> step = wanted.cwiseMax(-limit_.torque_step).cwiseMin(limit_.torque_step);
+    if (step != wanted) verdict.limits |= LimitBit(Reason::kTorqueRate);
+    // Where nothing limits, the very torque of the law: sent + (law - sent) would be off by a rounding.
+    for (int i = 0; i < N; ++i) sent_[i] = step[i] == wanted[i] ? bounded[i] : sent_[i] + step[i];
+    return sent_;
+  }
+
+  /// Torque zero at once; the brakes hold the arm.
+  Vec<N> Release() noexcept {
+    sent_.setZero();
+    held_.setZero();
+    return sent_;
+  }
+
+ private:
+  LimitValues<N> limit_;
+  Vec<N> sent_ = Vec<N>::Zero();
+  Vec<N> held_ = Vec<N>::Zero();  // the last torque before the measurements became too old
+};
+
+}  // namespace reed::protect

@@ -1,0 +1,64 @@
+#include "reed/firmware/loop/loop.h"
+
+#include "reed/firmware/loop/realtime_loop.h"
+
+namespace reed {
+namespace {
+
+/// Lockstep: how long an answer may take. A machine or a debugger that holds the plant up for less changes no
+/// figure of a run; answers that are lost cost this much once, and those after them only the second.
+constexpr std::int64_t kFirstTurn_ns = 1'000'000'000;
+constexpr std::int64_t kNextTurn_ns = 50'000'000;
+constexpr std::int64_t kFullRing_ns = 200'000;  // lockstep: how often a full ring is looked at again
+
+std::int32_t Nanoseconds(double us) { return static_cast<std::int32_t>(us * 1e3); }
+
+}  // namespace
+
+LoopOptions LoopOptionsFrom(const TimingConfig& timing) {
+  static_assert(static_cast<int>(TimingConfig::Overrun::kStop) == static_cast<int>(rt::OverrunPolicy::kStop));
+  static_assert(static_cast<int>(TimingConfig::PhaseAction::kFault) ==
+                static_cast<int>(rt::PhaseAction::kFault));
+  LoopOptions options;
+  options.rate_hz = timing.rate_hz;
+  options.phases.budget_ns = {Nanoseconds(timing.rx_budget_us), Nanoseconds(timing.compute_budget_us),
+                              Nanoseconds(timing.tx_budget_us)};
+  options.phases.action = static_cast<rt::PhaseAction>(timing.phase_action);
+  options.phases.max_in_row = timing.max_broken_in_row;
+  options.overrun = static_cast<rt::OverrunPolicy>(timing.overrun);
+  options.max_missed_in_row = timing.max_missed_in_row;
+  return options;
+}
+
+LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+                   const std::atomic<bool>& stop) noexcept {
+  rt::MonotonicClock clock;
+  return WallLoop(clock, options, cycle, ring).Run(stop);
+}
+
+LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
+                       const std::atomic<bool>& stop) noexcept {
+  const rt::MonotonicClock clock;
+  Stepper stepper(cycle, ring);
+  LoopResult result;
+  LoopState state;
+  const std::int64_t start_ns = clock.NowNs();
+  Silence silence(start_ns);
+  bool lost = false;
+  do {
+    while (ring.Claim() == nullptr) clock.SleepUntil(clock.NowNs() + kFullRing_ns);
+    const std::int64_t now_ns = clock.NowNs();
+    state.stop_wanted = stop.load(std::memory_order_relaxed);
+    const std::int64_t turn_ns = lost ? kNextTurn_ns : kFirstTurn_ns;
+    result.status = stepper.Step(now_ns, 0, now_ns + turn_ns, state, result);
+    lost = stepper.snapshot().timing.rx_ns >= turn_ns;
+    if (result.status == CycleStatus::kRunning &&
+        silence.TooLong(stepper.snapshot().bus.frames_rx, clock.NowNs()))
+      result.status = CycleStatus::kBusLost;
+    stepper.Close(result);
+  } while (result.status == CycleStatus::kRunning);
+  result.wall_s = static_cast<double>(clock.NowNs() - start_ns) * 1e-9;
+  return result;
+}
+
+}  // namespace reed

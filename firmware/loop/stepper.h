@@ -1,0 +1,86 @@
+// One turn of either loop: a cycle with its snapshot, and the silence after which a bus is lost. RT: safe.
+#pragma once
+
+#include "reed/firmware/loop/loop.h"
+#include "reed/rt/clock.h"
+
+namespace reed {
+
+/// Nothing heard for so long, although the controller asks every cycle: the bus is lost.
+inline constexpr std::int64_t kPatience_ns = 2'000'000'000;
+
+/// One cycle with its snapshot; a full ring costs the snapshot, never the cycle.
+class Stepper {
+ public:
+  Stepper(CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept : cycle_(cycle), ring_(ring) {}
+
+  /// Runs one cycle. The snapshot stays open for what the loop has to say about it, until Close().
+  CycleStatus Step(std::int64_t now_ns, std::int64_t wake_ns, std::int64_t rx_deadline_ns,
+                   const LoopState& state, LoopResult& result) noexcept {
+    slot_ = ring_.Claim();
+    if (slot_ == nullptr) ++result.dropped;
+    telemetry::Snapshot& now = snapshot();
+    now.ClearLists();
+    now.cycle = result.cycles;
+    now.time_ns = now_ns;
+    now.timing = {};
+    now.timing.wake_ns = rt::ShortNs(wake_ns);
+    const CycleStatus status =
+        cycle_.Run(static_cast<std::uint32_t>(result.cycles), rx_deadline_ns, state, now);
+    ++result.cycles;
+    return status;
+  }
+
+  telemetry::Snapshot& snapshot() noexcept { return slot_ != nullptr ? *slot_ : spare_; }
+
+  rt::PhaseTimes phase_times() noexcept {
+    const telemetry::Timing& t = snapshot().timing;
+    return {t.rx_ns, t.compute_ns, t.tx_ns};
+  }
+
+  /// News about time, with the phase times of the last cycles.
+  void NoteTime(protect::Reason reason, double value, const rt::PhaseHistory& history) noexcept {
+    telemetry::Snapshot& now = snapshot();
+    telemetry::Event event;
+    event.mode = now.control.mode;
+    event.force_source = now.control.force_source;
+    event.code = static_cast<std::int32_t>(reason);
+    event.value = value;
+    event.about_time = true;
+    now.phase_history = history;
+    now.AddEvent(event);
+  }
+
+  void Close(const LoopResult& result) noexcept {
+    telemetry::Snapshot& now = snapshot();
+    now.timing.missed = result.missed;
+    now.timing.overruns = result.overruns;
+    now.timing.dropped = result.dropped;
+    if (slot_ != nullptr) ring_.Publish();
+    slot_ = nullptr;
+  }
+
+ private:
+  CycleBase& cycle_;
+  telemetry::SnapshotRing& ring_;
+  telemetry::Snapshot* slot_ = nullptr;
+  telemetry::Snapshot spare_;
+};
+
+class Silence {
+ public:
+  explicit Silence(std::int64_t now_ns) noexcept : last_ns_(now_ns) {}
+  bool TooLong(std::int64_t frames_heard, std::int64_t now_ns) noexcept {
+    if (frames_heard != frames_) {
+      frames_ = frames_heard;
+      last_ns_ = now_ns;
+    }
+    return now_ns - last_ns_ > kPatience_ns;
+  }
+
+ private:
+  std::int64_t frames_ = 0;
+  std::int64_t last_ns_;
+};
+
+}  // namespace reed

@@ -1,0 +1,53 @@
+// Snapshot to LCM messages, encoded into a buffer that the encoder owns. For an ordinary thread; allocates
+// only until its vectors have grown to the run's number of joints. RT: not for the loop.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <reed/adaptation_t.hpp>
+#include <reed/bus_t.hpp>
+#include <reed/control_t.hpp>
+#include <reed/event_t.hpp>
+#include <reed/histogram_t.hpp>
+#include <reed/measured_t.hpp>
+#include <reed/run_t.hpp>
+#include <reed/timing_t.hpp>
+#include <span>
+
+#include "reed/firmware/snapshot/snapshot.h"
+
+namespace reed::telemetry {
+
+/// One datagram on an Ethernet with room for LCM's header; every message stays below it.
+inline constexpr std::size_t kMaxMessageBytes = 1400;
+
+/// Encoded bytes, valid until the encoder's next call.
+using Bytes = std::span<const std::uint8_t>;
+
+class Encoder {
+ public:
+  Bytes Measured(const Snapshot& snapshot, std::int64_t utime);
+  Bytes Control(const Snapshot& snapshot, std::int64_t utime);
+  Bytes Adaptation(const Snapshot& snapshot, std::int64_t utime);
+  Bytes Timing(const Snapshot& snapshot, std::int64_t utime);
+  Bytes Bus(const BusCounters& counters, std::int64_t cycle, std::int64_t utime);
+  /// @param index  of the snapshot's events
+  Bytes Event(const Snapshot& snapshot, int index, const char* text, std::int64_t utime);
+  Bytes Histogram(const reed::histogram_t& histogram);
+  /// @throws std::length_error if its strings do not fit one datagram
+  Bytes Run(const reed::run_t& run);
+
+ private:
+  template <typename Message>
+  Bytes Encode(const Message& message);
+
+  reed::measured_t measured_;
+  reed::control_t control_;
+  reed::adaptation_t adaptation_;
+  reed::timing_t timing_;
+  reed::bus_t bus_;
+  reed::event_t event_;
+  std::array<std::uint8_t, kMaxMessageBytes> buffer_;
+};
+
+}  // namespace reed::telemetry

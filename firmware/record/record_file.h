@@ -1,0 +1,43 @@
+// A file of records behind a stdio buffer that stays readable when the disk fills up: after the first error
+// it is cut back to its last complete flush, and everything from there on is counted as lost. For an ordinary
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+
+#include "reed/firmware/record/sink_report.h"
+
+namespace reed::telemetry {
+
+/// What stdio collects in; to outlive the file.
+using RecordBuffer = std::unique_ptr<char[]>;
+RecordBuffer MakeRecordBuffer();
+
+class RecordFile {
+ public:
+  /// Watches over `file` (opened by somebody else, nothing written yet, not owned), which gets this buffer;
+  /// nullptr: everything is ignored.
+  RecordFile(std::FILE* file, const std::string& path, const RecordBuffer& buffer);
+
+  /// True while records may be written; after an error the caller only counts them.
+  bool good() const noexcept { return file_ != nullptr && report_.problem.empty(); }
+
+  /// To be told of every record (of at most one datagram): whether stdio took it, or it was not even tried.
+  void Count(bool taken);
+  /// Hands the buffer to the kernel.
+  void Flush();
+
+  const SinkReport& report() const noexcept { return report_; }
+
+ private:
+  void Fail();
+
+  std::FILE* file_;
+  SinkReport report_;
+  std::int64_t pending_ = 0;  // records in the buffer
+  std::int64_t complete_bytes_ = 0;
+};
+
+}  // namespace reed::telemetry

@@ -1,0 +1,164 @@
+#include "reed/firmware/record/recorder.h"
+
+#include <pthread.h>
+
+#include "reed/rt/clock.h"
+
+namespace reed::telemetry {
+namespace {
+
+/// Polling, because waking this thread would cost the loop a system call; the ring holds many times this.
+/// Often where somebody may listen, because a burst overflows the socket of a slow listener; rarely where
+/// nobody can, because on one CPU the wake-ups cost as much as a fifth of the loop.
+constexpr std::int64_t kPollNs = 2'000'000, kPollUnheardNs = 10'000'000;
+/// Snapshots between two looks at the clock.
+constexpr int kBatch = 64;
+/// How much of a run a crash may cost.
+constexpr std::int64_t kFlushNs = 100'000'000;
+/// More than a watcher can follow; bursts because the thread wakes up every few ms.
+constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 50;
+
+std::string Lost(const SinkReport& sink, const char* what) {
+  return sink.problem + " (" + std::to_string(sink.lost) + " " + what + " lost, " +
+         std::to_string(sink.written) + " written)";
+}
+
+}  // namespace
+
+std::vector<std::string> RecorderReport::Problems() const {
+  std::vector<std::string> lines;
+  if (!log.problem.empty()) lines.push_back(Lost(log, "messages"));
+  if (!candump.problem.empty()) lines.push_back(Lost(candump, "frames"));
+  if (!lcm.problem.empty()) lines.push_back(Lost(lcm, "messages"));
+  if (frames_omitted > 0) {
+    lines.push_back("CAN log: " + std::to_string(frames_omitted) + " frames omitted, more than " +
+                    std::to_string(kMaxFrames) + " in one cycle");
+  }
+  return lines;
+}
+
+Recorder::Recorder(const RecorderOptions& options, const TimeBase& time, SnapshotRing& ring,
+                   EventText event_text)
+    : time_(time),
+      ring_(ring),
+      event_text_(event_text),
+      log_(options.log_path),
+      candump_(options.candump_path, options.candump_interface),
+      publisher_(options.lcm_url, options.publish),
+      cycle_limit_(kPublishPerSecond, kPublishBurst),
+      event_limit_(kPublishPerSecond, kPublishBurst) {}
+
+Recorder::~Recorder() { Stop(); }
+
+void Recorder::RecordRun(reed::run_t run) {
+  run.utime = time_.lockstep() ? last_utime_ : time_.Utime(0, rt::MonotonicClock().NowNs());
+  Emit("REED_RUN", encoder_.Run(run), run.utime, true);
+  Flush();
+}
+
+void Recorder::Start() {
+  stop_.store(false, std::memory_order_relaxed);
+  thread_ = std::thread([this] { Run(); });
+  pthread_setname_np(thread_.native_handle(), "reed-telemetry");
+}
+
+void Recorder::Stop() {
+  if (!thread_.joinable()) return;
+  stop_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+RecorderReport Recorder::Close() {
+  Stop();
+  Flush();
+  report_.log = log_.report();
+  report_.candump = candump_.report();
+  report_.lcm = publisher_.report();
+  return report_;
+}
+
+void Recorder::Run() {
+  const rt::MonotonicClock clock;
+  std::int64_t flushed_ns = clock.NowNs();
+  while (true) {
+    // Read before draining: what was pushed before Stop() is then sure to be seen below.
+    const bool stopping = stop_.load(std::memory_order_acquire);
+    now_ns_ = clock.NowNs();
+    const bool drained = DrainBatch();
+    if (drained && stopping) break;
+    if (now_ns_ - flushed_ns >= kFlushNs) {
+      Flush();
+      flushed_ns = now_ns_;
+    }
+    if (drained) clock.SleepUntil(clock.NowNs() + (publisher_.enabled() ? kPollNs : kPollUnheardNs));
+  }
+  if (report_.snapshots > 0 && last_cycle_ + kBusPeriodCycles != next_bus_cycle_) {
+    RecordBus(last_bus_, last_cycle_, last_utime_);
+  }
+  if (report_.snapshots % kHistogramPeriodCycles != 0) RecordHistograms();
+  Flush();
+}
+
+bool Recorder::DrainBatch() {
+  // Bounded, so that a producer that never rests (lockstep) does not keep the clock from being read.
+  for (int i = 0; i < kBatch; ++i) {
+    const Snapshot* snapshot = ring_.Front();
+    if (snapshot == nullptr) return true;
+    Record(*snapshot);
+    ring_.PopFront();
+  }
+  return false;
+}
+
+void Recorder::Record(const Snapshot& snapshot) {
+  const std::int64_t utime = time_.Utime(snapshot.cycle, snapshot.time_ns);
+  const bool publish = publisher_.enabled() && cycle_limit_.Admit(now_ns_);
+  if (publisher_.enabled() && !publish) ++report_.thinned;
+  if (publish || log_.enabled()) {
+    Emit("REED_MEASURED", encoder_.Measured(snapshot, utime), utime, publish);
+    Emit("REED_CONTROL", encoder_.Control(snapshot, utime), utime, publish);
+    Emit("REED_ADAPTATION", encoder_.Adaptation(snapshot, utime), utime, publish);
+    Emit("REED_TIMING", encoder_.Timing(snapshot, utime), utime, publish);
+  }
+  for (int i = 0; i < snapshot.num_events; ++i) {
+    const char* text = event_text_(snapshot.events[static_cast<std::size_t>(i)].code);
+    Emit("REED_EVENT", encoder_.Event(snapshot, i, text, utime), utime, event_limit_.Admit(now_ns_));
+  }
+  if (snapshot.cycle >= next_bus_cycle_) RecordBus(snapshot.bus, snapshot.cycle, utime);
+
+  for (int i = 0; i < snapshot.num_frames; ++i) {
+    const RecordedFrame& recorded = snapshot.frames[static_cast<std::size_t>(i)];
+    candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
+  }
+  report_.frames_omitted += snapshot.frames_omitted;
+  ++report_.snapshots;
+  last_bus_ = snapshot.bus;
+  last_cycle_ = snapshot.cycle;
+  last_utime_ = utime;
+  histograms_.Add(snapshot.timing);
+  if (report_.snapshots % kHistogramPeriodCycles == 0) RecordHistograms();
+}
+
+void Recorder::RecordHistograms() {
+  for (std::size_t i = 0; i < TimingHistograms::kNames.size(); ++i) {
+    histograms_.Fill(i, last_cycle_, last_utime_, histogram_);
+    Emit("REED_HISTOGRAM", encoder_.Histogram(histogram_), last_utime_, true);
+  }
+}
+
+void Recorder::RecordBus(const BusCounters& bus, std::int64_t cycle, std::int64_t utime) {
+  Emit("REED_BUS", encoder_.Bus(bus, cycle, utime), utime, true);
+  next_bus_cycle_ = cycle + kBusPeriodCycles;
+}
+
+void Recorder::Emit(const char* channel, Bytes message, std::int64_t utime, bool publish) {
+  log_.Write(channel, message, utime);
+  if (publish) publisher_.Publish(channel, message);
+}
+
+void Recorder::Flush() {
+  log_.Flush();
+  candump_.Flush();
+}
+
+}  // namespace reed::telemetry

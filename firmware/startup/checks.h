@@ -1,0 +1,36 @@
+// What is checked on the ground, before anything moves. RT: set-up only.
+#pragma once
+
+#include <atomic>
+#include <stdexcept>
+
+#include "reed/bus/transport/transport.h"
+#include "reed/config/description/scenario.h"
+
+namespace reed {
+
+/// Throws ConfigError when one cycle's frames do not fit a 1/5 Mbit/s wire at this rate and the scenario does
+/// not allow it.
+void RefuseWireOverload(const Scenario& scenario);
+
+/// The scenario's [timing] with every budget set: those that are 0 share what the others leave of the period.
+/// Throws ConfigError when nothing is left, or when a budget is shorter than its frames take on a 1/5 Mbit/s
+/// wire and the scenario does not allow it.
+TimingConfig WithBudgets(const Scenario& scenario);
+
+/// Drives do not wait for a controller; throws std::runtime_error where some may be at the bus's other end.
+void RefuseLockstepOnRealDrives(const bus::Transport& transport);
+
+/// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
+void RefuseSecondController(bus::Transport& transport);
+
+/// The bus is there but not usable: exit status 3.
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// SIGINT and SIGTERM set the flag instead of ending the process.
+const std::atomic<bool>& StopFlag();
+
+}  // namespace reed

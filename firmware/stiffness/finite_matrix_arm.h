@@ -1,0 +1,58 @@
+// The arm as nodes, joints and members of the finite matrix analysis (5), (6). RT: set-up only (allocates).
+#pragma once
+
+#include <vector>
+
+#include "reed/core/model/compliance.h"
+#include "reed/firmware/stiffness/finite_matrix.h"
+
+namespace reed::model {
+
+struct ArmStructure {
+  FiniteMatrix matrix;
+  std::vector<int>
+      joints;  // one node per joint: the start of its link; empty joint rotations when joints are rigid
+  std::vector<int> members;  // end node of every member, from base to tip
+  int tip = 0;               // tool point
+};
+
+/// The structure at the state of `kin`, under `loads`, clamped at the base.
+template <int N, int P>
+ArmStructure StructureOf(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const StructuralLoads<N>& loads,
+                         JointModel joint_model) {
+  ArmStructure out;
+  FiniteMatrix& matrix = out.matrix;
+  const auto wrench = [](const Wrench& W) {
+    Vec6 both;
+    both << W.F, W.n;
+    return both;
+  };
+  int end = matrix.AddSupport(Eigen::Vector3d::Zero());
+  int j = 0;
+  for (int i = 0; i < N; ++i) {
+    const Eigen::Vector3d start = kin.p[i] - arm.d(i) * kin.R[i].col(2);
+    const double k_q = arm.joint_stiffness(i);
+    const bool elastic = joint_model == JointModel::kElastic && std::isfinite(k_q);
+    end = elastic ? matrix.AddJoint(end, start, kin.R[i].col(2), k_q) : matrix.AddRigid(end, start);
+    out.joints.push_back(end);
+    if (arm.carrier[i] < 0) {
+      end = matrix.AddRigid(end, kin.p[i]);
+      matrix.AddLoad(end, wrench(loads.rigid_link[i]));
+    }
+    for (; j < arm.num_members && arm.member[j].link == i; ++j) {
+      const Member& beam = arm.member[j];
+      const MemberLoad& load = loads.member[j];
+      const int from = end;
+      end = matrix.AddFree(kin.p[i] + beam.end_at * kin.R[i].col(beam.axis));
+      matrix.AddMember(from, end, beam.EA, beam.EI, beam.GJ, load.spread);
+      matrix.AddLoad(from, wrench({load.start, Eigen::Vector3d::Zero()}));
+      matrix.AddLoad(end, wrench(load.end));
+      out.members.push_back(end);
+    }
+  }
+  out.tip = matrix.AddRigid(end, kin.tip);
+  matrix.AddLoad(out.tip, wrench(loads.tip));
+  return out;
+}
+
+}  // namespace reed::model
