@@ -1,6 +1,6 @@
 // How long something short takes, on a machine that others use too: many batches, the quickest and the median
 // batch. One process can sit in a slow mode of the machine, so callers start several. With --count nothing is
-// timed: every input is run once under the eyes of callgrind (tools/reed_tools/callgrind.py), which counts
+// timed: every input is run once under the eyes of callgrind (tools/reed_tools/bench/callgrind.py), which counts
 // its instructions exactly.
 #pragma once
 

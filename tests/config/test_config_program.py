@@ -237,7 +237,7 @@ def test_the_readme_names_every_key_of_the_arm_and_every_check():
     assert len(known) > 20
     for key in known:
         assert key in readme, key
-    from reed_tools import checks
+    from reed_tools.figures import checks
     for name, member in vars(checks).items():
         if inspect.isfunction(member) and list(inspect.signature(member).parameters) == ["run"]:
             assert f"| {name} |" in readme, name

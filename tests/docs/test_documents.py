@@ -9,7 +9,8 @@ import sys
 
 import pytest
 
-from reed_tools import campaign_file, cli
+from reed_tools import cli
+from reed_tools.campaign import definition
 from reed_tools.paths import ROOT, SCENARIOS, program
 
 
@@ -101,7 +102,7 @@ def keys():
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_every_key_of_a_scenario_that_is_named_exists(document):
     sections = {key.partition(".")[0] for key in keys()} - {"checks[]"}
-    known = keys() | {f"{section}.{key}" for section, allowed in campaign_file.SECTIONS.items() for key in allowed}
+    known = keys() | {f"{section}.{key}" for section, allowed in definition.SECTIONS.items() for key in allowed}
     lists = {key.partition("[]")[0] + "[]" for key in known}
     for name in re.findall(rf"(?<![\w./-])((?:{'|'.join(sections)})(?:\.\w+|\[\])+)", text_of(document)):
         key = re.sub(r"\.\d+", "[]", name)

@@ -6,11 +6,11 @@ import tomllib
 
 import pytest
 
-from reed_tools import bench_embedded
+from reed_tools.bench import embedded
 from reed_tools.paths import ROOT
 
-if bench_embedded.missing():
-    pytest.skip(f"missing: {'; '.join(bench_embedded.missing())}", allow_module_level=True)
+if embedded.missing():
+    pytest.skip(f"missing: {'; '.join(embedded.missing())}", allow_module_level=True)
 
 BUDGET = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["cortex_m7"]
 MARGIN = 1.05
@@ -22,12 +22,12 @@ TORQUE = 114
 
 @pytest.fixture(scope="module")
 def proof(tmp_path_factory):
-    return bench_embedded.prove(tmp_path_factory.mktemp("embedded"))
+    return embedded.prove(tmp_path_factory.mktemp("embedded"))
 
 
 @pytest.fixture(scope="module")
 def cases():
-    return json.loads(bench_embedded.CASES.read_text())["cases"]
+    return json.loads(embedded.CASES.read_text())["cases"]
 
 
 def test_the_target_has_no_heap_no_exceptions_no_rtti_and_no_locks(proof):

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from reed_tools.mujoco_chain import POSE, Chain, at_pose
+from reed_tools.robots.mujoco_chain import POSE, Chain, at_pose
 
 
 @pytest.mark.parametrize("cuts, coordinates", [(1, 16), (2, 22), (4, 34)])

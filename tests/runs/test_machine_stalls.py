@@ -11,7 +11,7 @@ from contextlib import contextmanager
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
-from reed_tools.telemetry_log import load
+from reed_tools.record.telemetry_log import load
 
 BUS = "udp:239.74.163.2:46393"
 CORE = max(os.sched_getaffinity(0))  # where both programs run when nothing else is said

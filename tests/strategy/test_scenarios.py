@@ -10,8 +10,10 @@ import tomllib
 
 import pytest
 
-from reed_tools import bus_choice, hil, scenario, summary, telemetry_log
+from reed_tools.figures import summary
 from reed_tools.paths import ROOT, program
+from reed_tools.record import telemetry_log
+from reed_tools.run import bus_choice, hil, scenario
 
 SCENARIOS = sorted(path.stem for path in (ROOT / "config/scenarios").glob("*.toml") if tomllib.loads(path.read_text())["arm"] == "a5")
 SHORTER_S = {"wall_soft": 3.0, "fluctuating_unknown": 3.0, "free_motion": 3.0,

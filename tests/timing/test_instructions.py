@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from reed_tools import callgrind
+from reed_tools.bench import callgrind
 from reed_tools.paths import BUILD, ROOT
 
 BUDGET = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["x86_64"]

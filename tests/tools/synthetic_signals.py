@@ -5,7 +5,7 @@ import tomllib
 import numpy as np
 
 from reed_tools.paths import ARMS
-from reed_tools.signals import SOURCES, Signals
+from reed_tools.record.signals import SOURCES, Signals
 
 ARM = tomllib.loads((ARMS / "a5.toml").read_text())
 POSE = [0.1, 0.6, -1.0, -0.7, 0.2]

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reed_tools import bench_command, bench_plot, bench_programs, bench_rate, bench_steps, bench_wake
-from reed_tools.bench_rows import Found, Row
+from reed_tools.bench import command, plot, programs, rates, steps, wake
+from reed_tools.bench.rows import Found, Row
 
 QUICK = SimpleNamespace(quick=True, processes=1, slice=1, slices=1)
 
@@ -34,7 +34,7 @@ def test_no_miss_beside_no_stall_is_even_and_any_miss_beside_none_is_too_many():
 
 
 def test_the_exponent_of_a_power_law_is_its_power():
-    assert bench_steps.exponent({n: 3.0 * n**1.7 for n in (2, 4, 8, 16, 32)}) == pytest.approx(1.7)
+    assert steps.exponent({n: 3.0 * n**1.7 for n in (2, 4, 8, 16, 32)}) == pytest.approx(1.7)
 
 
 CYCLICTEST = """# Histogram
@@ -48,24 +48,24 @@ CYCLICTEST = """# Histogram
 
 
 def test_cyclictests_histogram_gives_quantiles_within_its_bins_and_its_overflows_are_late(monkeypatch):
-    monkeypatch.setattr(bench_programs, "output", lambda command: CYCLICTEST)
-    found = bench_wake.summary(bench_wake.cyclictest(1, 1000))
+    monkeypatch.setattr(programs, "output", lambda command: CYCLICTEST)
+    found = wake.summary(wake.cyclictest(1, 1000))
     assert found == {"p50_us": 20.2, "p99_us": 5000.5, "late": 2}
 
 
 def test_without_cyclictest_the_loops_own_latency_is_measured_and_the_fix_is_told(monkeypatch):
-    monkeypatch.setattr(bench_wake.shutil, "which", lambda name: None)
-    monkeypatch.setattr(bench_programs, "build", lambda *targets: None)
-    monkeypatch.setattr(bench_programs, "output", lambda command: '{"p50_us": 5.0, "p99_us": 9.0, "late": 1}')
-    monkeypatch.setattr(bench_wake, "program", lambda name: name)
-    found = bench_wake.wake(QUICK, None)
+    monkeypatch.setattr(wake.shutil, "which", lambda name: None)
+    monkeypatch.setattr(programs, "build", lambda *targets: None)
+    monkeypatch.setattr(programs, "output", lambda command: '{"p50_us": 5.0, "p99_us": 9.0, "late": 1}')
+    monkeypatch.setattr(wake, "program", lambda name: name)
+    found = wake.wake(QUICK, None)
     assert [row.ours for row in found.rows] == [5.0, 9.0] and all(row.ratio is None for row in found.rows)
     assert any("sudo apt install rt-tests" in note for note in found.notes)
 
 
 def test_cyclictests_grid_goes_on_at_the_first_point_that_is_not_past():
-    due = 1e6 + bench_rate.LOOK_US
-    assert bench_rate.stalls_of([5, 250, 5, 70], 1e6) == [(due + 100, due + 350), (due + 500, due + 570)]
+    due = 1e6 + rates.LOOK_US
+    assert rates.stalls_of([5, 250, 5, 70], 1e6) == [(due + 100, due + 350), (due + 500, due + 570)]
 
 
 def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_alone():
@@ -73,37 +73,37 @@ def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_a
     table = {"utime": now_us + np.array([0.0, 1000.0, 5000.0, 9000.0]), "missed": np.array([0, 2, 3, 3]),
              "wake_ns": np.full(4, 300e3), "cycle_ns": np.full(4, 400e3)}
     far, near = [1e9, 1e9 + 70.0], [now_us + shift + 1200.0, now_us + shift + 1500.0]
-    assert bench_rate.away(table, np.array([far])) == 3
-    assert bench_rate.away(table, np.array([near, far])) == 1
-    assert bench_rate.away(table, np.empty((0, 2))) == 3
-    assert bench_rate.by_chance(table, np.array([far])) == 0.0
-    assert bench_rate.by_chance(table, np.array([[now_us + shift + 8800.0, now_us + shift + 8900.0]])) == 1.0
+    assert rates.away(table, np.array([far])) == 3
+    assert rates.away(table, np.array([near, far])) == 1
+    assert rates.away(table, np.empty((0, 2))) == 3
+    assert rates.by_chance(table, np.array([far])) == 0.0
+    assert rates.by_chance(table, np.array([[now_us + shift + 8800.0, now_us + shift + 8900.0]])) == 1.0
 
 
 def test_without_pinocchio_and_valgrind_the_steps_are_measured_and_the_fixes_are_told(monkeypatch):
     stages = {name: {"best_ns": 1.0, "median_ns": 2.0} for name in ("step", "regressor_a5", "regressor_a7")}
-    monkeypatch.setattr(bench_programs.importlib.util, "find_spec", lambda name: None)
-    monkeypatch.setattr(bench_programs, "build", lambda *targets: None)
-    monkeypatch.setattr(bench_programs, "nanoseconds", lambda name, processes: dict(stages))
-    monkeypatch.setattr(bench_steps.callgrind, "available", lambda: False)
-    found = bench_steps.steps(QUICK, None)
+    monkeypatch.setattr(programs.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(programs, "build", lambda *targets: None)
+    monkeypatch.setattr(programs, "nanoseconds", lambda name, processes: dict(stages))
+    monkeypatch.setattr(steps.callgrind, "available", lambda: False)
+    found = steps.steps(QUICK, None)
     assert len(found.rows) == 3 and all(row.ok is None for row in found.rows)
     told = " ".join(found.notes)
     assert "pip install pin" in told and "apt install valgrind" in told
 
 
 def test_without_qemu_the_embedded_core_is_named_with_the_fix(monkeypatch):
-    monkeypatch.setattr(bench_command.bench_embedded.shutil, "which", lambda name: None)
-    found = bench_command.embedded(QUICK, None)
+    monkeypatch.setattr(command.embedded.shutil, "which", lambda name: None)
+    found = command.cortex_m7(QUICK, None)
     assert found.rows == [] and "sudo apt install qemu-system-arm" in found.notes[0]
 
 
 def test_the_picture_holds_ratios_and_growth(tmp_path):
     growth = {"joints": [2, 4, 8], "reed": [1.0, 2.0, 4.0], "pinocchio": [3.0, 8.0, 20.0]}
     found = Found([Row("step", 2.0, 8.0, "ns", 0.5, "other")], details={"growth_ns": growth})
-    assert bench_plot.draw(found, "a machine", tmp_path / "bench.png")
+    assert plot.draw(found, "a machine", tmp_path / "bench.png")
     assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
-    assert not bench_plot.draw(Found(), "a machine", tmp_path / "none.png")
+    assert not plot.draw(Found(), "a machine", tmp_path / "none.png")
 
 
 @pytest.mark.parametrize("argv, told", [

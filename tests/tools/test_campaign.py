@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import pytest
 
-from reed_tools import campaign_file, campaign_record, campaign_verdict
-from reed_tools.campaign_file import CAMPAIGNS, Drawn
+from reed_tools.campaign import definition, draws, verdicts
+from reed_tools.campaign.definition import CAMPAIGNS, Drawn
 from reed_tools.paths import BUILD, ROOT, SCENARIOS
 
 HEAD = '[campaign]\nname = "small"\nscenario = "{scenario}"\ndraws = 4\nseed = 3\n'
@@ -24,7 +24,7 @@ SEED = '[[draw]]\nkey = "scenario.seed"\ninteger = [1, 1000]\n'
 
 @pytest.fixture
 def press_known():
-    return campaign_file.load(CAMPAIGNS / "press_known.toml")
+    return definition.load(CAMPAIGNS / "press_known.toml")
 
 
 def records_in(folder):
@@ -43,16 +43,16 @@ def one_line(done, status):
 
 def test_a_draw_follows_from_seed_and_index_and_not_from_those_before_it(press_known):
     forwards = [press_known.overrides(index) for index in range(20)]
-    again = campaign_file.load(CAMPAIGNS / "press_known.toml")
+    again = definition.load(CAMPAIGNS / "press_known.toml")
     assert [again.overrides(index) for index in reversed(range(20))] == forwards[::-1]
     assert len({tuple(overrides) for overrides in forwards}) == 20
-    assert campaign_file.load(CAMPAIGNS / "press_known.toml", seed=2).overrides(0) != forwards[0]
+    assert definition.load(CAMPAIGNS / "press_known.toml", seed=2).overrides(0) != forwards[0]
 
 
 def test_draws_are_those_of_every_machine():
     """SHA-256 of "1/0/a/0" begins with these 8 bytes: by `printf 1/0/a/0 | sha256sum`."""
     digest = subprocess.run(["sha256sum"], input=b"1/0/a/0", capture_output=True, check=True).stdout.split()[0]
-    assert campaign_file.unit_number("1/0/a/0") == int(digest[:16], 16) // 2048 / 2**53
+    assert definition.unit_number("1/0/a/0") == int(digest[:16], 16) // 2048 / 2**53
 
 
 def test_a_number_more_leaves_all_others_as_they_were(press_known):
@@ -63,7 +63,7 @@ def test_a_number_more_leaves_all_others_as_they_were(press_known):
 
 
 def test_a_value_from_the_command_line_is_drawn_no_more(press_known):
-    given = campaign_file.load(CAMPAIGNS / "press_known.toml", extra=("force.desired_N=7",))
+    given = definition.load(CAMPAIGNS / "press_known.toml", extra=("force.desired_N=7",))
     assert [entry for entry in given.overrides(3) if entry.startswith("force.desired_N")] == ["force.desired_N=7"]
     assert {key: value for key, value in press_known.values(3).items() if key != "force.desired_N"} == given.values(3)
     assert given.definition() != press_known.definition()
@@ -92,7 +92,7 @@ def test_entries_of_a_list_are_drawn_each_by_itself(press_known):
 
 
 def test_shards_part_the_draws_without_overlap(press_known):
-    from reed_tools.campaign_command import selected
+    from reed_tools.campaign.command import selected
 
     options = {"draws": 23, "first": None, "count": None, "shard": None}
     parts = [selected(press_known, {**options, "shard": f"{part}/4"}) for part in (1, 2, 3, 4)]
@@ -103,7 +103,7 @@ def test_shards_part_the_draws_without_overlap(press_known):
 def test_every_campaign_there_is_draws_what_the_programs_accept(tmp_path):
     """First and last draw of each; the reader refuses unknown keys and numbers out of range."""
     for path in CAMPAIGNS.glob("*.toml"):
-        campaign = campaign_file.load(path)
+        campaign = definition.load(path)
         for index in (0, campaign.draws - 1):
             command = [BUILD / "bin" / "reed_config", "--config", campaign.scenario]
             for entry in campaign.overrides(index):
@@ -118,29 +118,29 @@ def test_every_campaign_there_is_draws_what_the_programs_accept(tmp_path):
 def record(index, value, limit=10.0, status="finished", digest="d"):
     checks = [{"name": "force", "limit": limit, "value": value, "ok": value is not None and value <= limit},
               {"name": "faults", "limit": 0, "value": 0, "ok": True}]
-    return campaign_record.Record(index, "definition", "build", ["scenario.seed=5", "wall.friction=0.2"], status, "", checks, digest=digest)
+    return draws.Record(index, "definition", "build", ["scenario.seed=5", "wall.friction=0.2"], status, "", checks, digest=digest)
 
 
 def test_the_verdict_counts_stable_and_within_and_finds_the_worst(press_known):
     records = [record(k, 5.0) for k in range(97)] + [record(97, 12.0), record(98, 19.0), record(99, 9.0)]
-    assert campaign_verdict.judge(press_known, records, []).ok
-    stable, within, worst = campaign_verdict.judge(press_known, records, []).lines
+    assert verdicts.judge(press_known, records, []).ok
+    stable, within, worst = verdicts.judge(press_known, records, []).lines
     assert (stable.value, within.value, worst.value) == (100.0, 98.0, 1.9)
-    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, 21.0)], []).ok
-    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, None)], []).ok
-    assert not campaign_verdict.judge(press_known, [*records[:99], record(99, 5.0, status="fault")], []).ok
+    assert not verdicts.judge(press_known, [*records[:99], record(99, 21.0)], []).ok
+    assert not verdicts.judge(press_known, [*records[:99], record(99, None)], []).ok
+    assert not verdicts.judge(press_known, [*records[:99], record(99, 5.0, status="fault")], []).ok
     bouncing = record(99, 5.0)
     bouncing.stability.append({"name": "contact_lost_ms", "limit": 0, "value": 12.0, "ok": False})
     assert not bouncing.stable and bouncing.deciding["name"] == "contact_lost_ms"
-    assert not campaign_verdict.judge(press_known, [*records[:99], bouncing], []).ok
-    assert not campaign_verdict.judge(press_known, [record(k, 11.0) for k in range(6)] + records[:94], []).ok
-    assert [one.index for one in campaign_record.worst_first(records)[:2]] == [98, 97]
+    assert not verdicts.judge(press_known, [*records[:99], bouncing], []).ok
+    assert not verdicts.judge(press_known, [record(k, 11.0) for k in range(6)] + records[:94], []).ok
+    assert [one.index for one in draws.worst_first(records)[:2]] == [98, 97]
 
 
 def test_a_second_run_with_another_digest_fails_the_campaign(press_known):
     records = [record(k, 5.0) for k in range(4)]
-    assert campaign_verdict.judge(press_known, records, [record(2, 5.0)]).ok
-    verdict = campaign_verdict.judge(press_known, records, [record(2, 5.0, digest="other")])
+    assert verdicts.judge(press_known, records, [record(2, 5.0)]).ok
+    verdict = verdicts.judge(press_known, records, [record(2, 5.0, digest="other")])
     assert not verdict.ok and verdict.different == [2]
 
 
@@ -219,13 +219,13 @@ def test_a_program_that_dies_is_status_3_and_its_draw_is_run_again(reed, small, 
 
 
 def test_draws_of_another_campaign_and_lines_that_are_no_draw_are_refused(tmp_path):
-    campaign_record.append(tmp_path, record(0, 5.0))
-    assert [one.index for one in campaign_record.read(tmp_path, "definition")] == [0]
-    with pytest.raises(campaign_file.UsageError, match="draws.jsonl:1: a draw of another campaign"):
-        campaign_record.read(tmp_path, "another")
+    draws.append(tmp_path, record(0, 5.0))
+    assert [one.index for one in draws.read(tmp_path, "definition")] == [0]
+    with pytest.raises(definition.UsageError, match="draws.jsonl:1: a draw of another campaign"):
+        draws.read(tmp_path, "another")
     (tmp_path / "draws.jsonl").write_text('{"index": 3}\n')
-    with pytest.raises(campaign_file.UsageError, match="draws.jsonl:1: not a draw"):
-        campaign_record.read(tmp_path, "definition")
+    with pytest.raises(definition.UsageError, match="draws.jsonl:1: not a draw"):
+        draws.read(tmp_path, "definition")
 
 
 @pytest.mark.parametrize("argv, told", [
@@ -258,8 +258,8 @@ def test_bad_input_is_one_line_and_status_2(reed, tmp_path, argv, told):
 def test_a_bad_campaign_file_is_refused_with_its_key(tmp_path, text, told):
     path = tmp_path / "bad.toml"
     path.write_text(text)
-    with pytest.raises(campaign_file.UsageError, match=told):
-        campaign_file.load(path)
+    with pytest.raises(definition.UsageError, match=told):
+        definition.load(path)
 
 
 # ---- with the programs themselves ----

@@ -11,9 +11,9 @@ import time
 import numpy as np
 import pytest
 
-from reed_tools import bus_choice, vm
 from reed_tools.paths import ROOT
-from reed_tools.telemetry_log import events, load
+from reed_tools.record.telemetry_log import events, load
+from reed_tools.run import bus_choice, vm
 
 DBC = ROOT / "bus" / "reed.dbc"
 UDP_PORT = 43981  # tests run beside other runs

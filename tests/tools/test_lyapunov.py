@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from synthetic_signals import ARM, constant, run
 
-from reed_tools import lyapunov, rigid_arm
+from reed_tools.figures import lyapunov
 from reed_tools.paths import ROOT
+from reed_tools.robots import rigid_arm
 
 CASES = ROOT / "tests" / "data" / "cases"
 

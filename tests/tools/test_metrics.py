@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 import synthetic_run as synthetic
 
-from reed_tools import checks, metrics, report_html, result_table, signals, summary
 from reed_tools.errors import UsageError
-from reed_tools.evaluate import evaluate
-from reed_tools.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
+from reed_tools.figures import checks, metrics, report_page, result_table, summary
+from reed_tools.figures.evaluate import evaluate
+from reed_tools.record import signals
+from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
 
 
 def recorded(folder, wanted=(), **options):
@@ -199,7 +200,7 @@ def test_a_run_that_recorded_nothing_has_a_summary_of_nulls(tmp_path):
 def test_page_needs_nothing_from_outside_and_shows_every_picture(tmp_path):
     evaluate(recorded(tmp_path))
     page = (tmp_path / "report.html").read_text()
-    assert page.count("data:image/png;base64,") == len(report_html.CAPTIONS) == len(list(tmp_path.glob("*.png")))
+    assert page.count("data:image/png;base64,") == len(report_page.CAPTIONS) == len(list(tmp_path.glob("*.png")))
     assert "http" not in page
 
 
@@ -220,8 +221,8 @@ def test_foreign_logplayer_reads_the_merged_log(tmp_path):
 
 
 def test_decoding_at_once_equals_the_generated_classes(tmp_path):
-    from reed_tools.message_layout import decode_all
-    from reed_tools.telemetry_log import TABLES
+    from reed_tools.record.message_layout import decode_all
+    from reed_tools.record.telemetry_log import TABLES
     import reed
 
     folder = recorded(tmp_path, duration_s=0.2)
@@ -238,8 +239,8 @@ def test_decoding_at_once_equals_the_generated_classes(tmp_path):
 
 
 def test_a_log_of_two_different_arms_is_refused():
-    from reed_tools.message_layout import decode_all
     from reed_tools.errors import RunError
+    from reed_tools.record.message_layout import decode_all
     import reed
 
     one, two = reed.adaptation_t(), reed.adaptation_t()

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 import synthetic_signals as synthetic
 
-from reed_tools import paper_command, paper_experiments, paper_figures, paper_page, paper_runs, paths
+from reed_tools import paths
 from reed_tools.errors import RunError, UsageError
-from reed_tools.paper_experiments import Experiment
+from reed_tools.paper import catalogue, command, page, phases, runs
+from reed_tools.paper.catalogue import Experiment
 
 N = 3000
 T = np.arange(N) * 1e-3
@@ -28,7 +29,7 @@ def textbook(t):
 
 def test_the_three_phases_are_those_of_a_textbook_course():
     signals, _ = pressing(textbook)
-    seen = paper_figures.phases(signals)
+    seen = phases.phases(signals)
     assert (seen.contact_s, seen.peak_s) == (pytest.approx(0.401, abs=2e-3), pytest.approx(0.5, abs=5e-3))
     assert seen.peak_N == pytest.approx(12.09, abs=0.05)
     # 4 exp(-x/0.2) = 0.4 at x = 0.46; the ripple shifts it by less than 0.06 s
@@ -39,32 +40,32 @@ def test_the_three_phases_are_those_of_a_textbook_course():
 def test_a_force_that_comes_from_below_has_no_decreasing_phase():
     """Later ripple inside the band is no peak."""
     signals, _ = pressing(lambda t: np.where(t < 1.0, 8.0 * (t - 0.4) / 0.6, 8.0 + 0.2 * np.sin(9.0 * t)))
-    seen = paper_figures.phases(signals)
+    seen = phases.phases(signals)
     assert seen.stable_s == pytest.approx(0.4 + 0.95 * 0.6, abs=3e-3)
     assert seen.peak_s == pytest.approx(seen.stable_s, abs=2e-3) and seen.peak_N == pytest.approx(7.6, abs=0.02)
 
 
 def test_a_force_that_leaves_the_band_at_the_end_never_was_stable():
     signals, _ = pressing(lambda t: np.where(t > 2.9, 9.0, 8.0))
-    seen = paper_figures.phases(signals)
+    seen = phases.phases(signals)
     assert seen.stable_s is None and seen.stable_rms_N is None
 
 
 def test_an_arm_that_never_touched_has_no_phases():
     signals, _ = pressing(lambda t: 0.0 * t)
-    assert paper_figures.phases(signals) is None
+    assert phases.phases(signals) is None
 
 
 def test_seconds_that_a_stopped_arm_did_not_finish_have_no_figures():
     error = np.full((1500, 5), 2e-3)
     signals, _ = synthetic.run("unknown", "pd", n=1500, joint_error=error)
-    assert paper_figures.joint_by_second(signals, 1000.0, tangential=False) == [pytest.approx(2.0), None, None]
-    assert paper_figures.force_by_second(signals, 1000.0) == [None, None, None]
+    assert phases.joint_by_second(signals, 1000.0, tangential=False) == [pytest.approx(2.0), None, None]
+    assert phases.force_by_second(signals, 1000.0) == [None, None, None]
 
 
 @pytest.mark.parametrize("value, best, text", [(3.0, 1.0, "3×"), (0.5, 1.0, "0.5×"), (None, 1.0, "stopped"), (1.0, None, "–")])
 def test_how_many_times_worse(value, best, text):
-    assert paper_figures.times(value, best) == text
+    assert phases.times(value, best) == text
 
 
 def result(key, law, mrad, n=N, stopped=None):
@@ -72,18 +73,18 @@ def result(key, law, mrad, n=N, stopped=None):
     signals, effective = synthetic.run("known" if key.startswith("known") else "unknown", law, n=n, joint_error=scale, tangential_joint=scale,
                                        force_desired=np.full(n, 8.0), force_true=np.full(n, 8.0 - mrad), s=0.01 * scale,
                                        eta_hat=np.full((n, 6), 0.1), has_wall=key.startswith("known"))
-    return paper_runs.Result(Experiment(key, f"law of {key}", "press_known"), effective, signals, stopped)
+    return runs.Result(Experiment(key, f"law of {key}", "press_known"), effective, signals, stopped)
 
 
 def some_results():
     everything = []
-    for experiment in paper_experiments.everything():
+    for experiment in catalogue.everything():
         group, law = experiment.key.split("/")
         law = "separated" if law == "observer" else law
         mrad = {"separated": 1.0, "pd": 5.0, "pd_tuned": 0.5}.get(law, 2.0)
         stopped = "joint 2 too fast" if law == "paper_printed" else None
         one = result(experiment.key, law, mrad, n=700 if stopped else N, stopped=stopped)
-        everything.append(paper_runs.Result(experiment, one.effective, one.signals, stopped))
+        everything.append(runs.Result(experiment, one.effective, one.signals, stopped))
     return everything
 
 
@@ -92,7 +93,7 @@ def cells(table):
 
 
 def test_the_comparison_shows_a_law_that_loses_losing_and_one_that_wins_winning():
-    table = paper_page.comparison([r for r in some_results() if r.experiment.key.startswith("known/")], with_force=True)
+    table = page.comparison([r for r in some_results() if r.experiment.key.startswith("known/")], with_force=True)
     rows = {row[0]: row for row in (cells(row) for row in table.split("\n")) if row}
     assert rows["PD(10,5)"][1:5] == ["5", "5", "5", "5×"]
     assert rows["tuned PD"][4] == "0.5×" and rows["robust"][4] == "1×"
@@ -117,33 +118,33 @@ class Outside(html.parser.HTMLParser):
 
 
 def test_the_page_has_a_panel_per_figure_every_law_and_needs_nothing_from_outside(tmp_path):
-    text = paper_page.write(tmp_path, some_results()).read_text()
-    page = Outside()
-    page.feed(text)
-    assert page.found == [] and page.pictures == 11
+    text = page.write(tmp_path, some_results()).read_text()
+    outside = Outside()
+    outside.feed(text)
+    assert outside.found == [] and outside.pictures == 11
     for figure in range(9, 18):
         assert f'id="figure{figure}"' in text
         assert (tmp_path / f"figure{figure}.png").stat().st_size > 5000
-    for experiment in paper_experiments.everything():
+    for experiment in catalogue.everything():
         assert experiment.law in text
 
 
 def test_experiments_have_names_of_their_own_and_sound_configurations(tmp_path):
-    experiments = paper_experiments.everything()
+    experiments = catalogue.everything()
     assert len({experiment.key for experiment in experiments}) == len(experiments)
-    folders = paper_runs.prepare(experiments, tmp_path)
+    folders = runs.prepare(experiments, tmp_path)
     assert len(set(folders.values())) == len(experiments)
     for experiment in experiments:
-        effective = paper_runs.scenario.load(folders[experiment.key] / "effective.toml")
-        assert effective["scenario"]["duration_s"] == paper_experiments.DURATION_S
+        effective = runs.configuration.load(folders[experiment.key] / "effective.toml")
+        assert effective["scenario"]["duration_s"] == catalogue.DURATION_S
         if not experiment.key.endswith("observer"):
             assert effective["control"]["law"] == experiment.key.split("/")[1]
 
 
 def test_fixed_nominal_parameters_get_the_force_loop_and_the_gains_of_the_robust_law(tmp_path):
-    pair = [e for e in paper_experiments.known() if e.key in ("known/fixed_nominal", "known/separated")]
-    folders = paper_runs.prepare(pair, tmp_path)
-    fixed, robust = (paper_runs.scenario.load(folders[e.key] / "effective.toml")["control"] for e in pair)
+    pair = [e for e in catalogue.known() if e.key in ("known/fixed_nominal", "known/separated")]
+    folders = runs.prepare(pair, tmp_path)
+    fixed, robust = (runs.configuration.load(folders[e.key] / "effective.toml")["control"] for e in pair)
     differ = {key for key in robust if fixed[key] != robust[key]}
     assert differ == {"law", "normal_speed_limit_mps"} and fixed["normal_speed_limit_mps"] > robust["normal_speed_limit_mps"]
 
@@ -161,7 +162,7 @@ def short(key, *overrides):
 
 def run_all(experiments, cache, jobs=2):
     told = []
-    results = paper_runs.run_all(experiments, cache, jobs, lambda event, experiment, seconds: told.append((event, experiment.key)))
+    results = runs.run_all(experiments, cache, jobs, lambda event, experiment, seconds: told.append((event, experiment.key)))
     return results, [entry for entry in told if entry[0] != "at"]
 
 
@@ -191,7 +192,7 @@ def test_a_wrong_configuration_is_refused_before_anything_runs(stand_ins, tmp_pa
 
 
 def test_a_small_real_run_gives_the_signals_of_a_pressing_arm(tmp_path, monkeypatch):
-    monkeypatch.setattr(paper_experiments, "DURATION_S", 0.7)
+    monkeypatch.setattr(catalogue, "DURATION_S", 0.7)
     (one,), told = run_all([short("press")], tmp_path, jobs=1)
     assert told == [("started", "press"), ("done", "press")]
     assert one.stopped is None and one.signals.dof == 5
@@ -204,4 +205,4 @@ def test_bad_numbers_of_jobs_are_refused():
         out, jobs, fresh = None, 0, False
 
     with pytest.raises(UsageError, match="--jobs 0"):
-        paper_command.run(Arguments)
+        command.run(Arguments)

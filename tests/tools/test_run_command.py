@@ -6,7 +6,8 @@ import time
 
 import pytest
 
-from reed_tools import bus_choice, cli
+from reed_tools import cli
+from reed_tools.run import bus_choice
 
 BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
 

@@ -10,7 +10,7 @@ import lcm
 import pytest
 import synthetic_run
 
-from reed_tools import spy_command
+from reed_tools.machine import spy
 from reed_tools.paths import BUILD
 
 URL = "udpm://239.255.76.67:7977?ttl=0"  # a port of its own: tests run side by side
@@ -40,11 +40,11 @@ def telemetry():
 
 
 def test_shows_every_channel_with_rate_fields_and_plot(telemetry, tmp_path):
-    assert spy_command.missing_packages() == []
-    spy_command.build_types_jar()
+    assert spy.missing_packages() == []
+    spy.build_types_jar()
     probe = Path(__file__).with_name("SpyProbe.java")
-    subprocess.run(["javac", "-cp", spy_command.LCM_JAR, "-d", tmp_path, probe], check=True)
-    command = spy_command.spy_command(None)
+    subprocess.run(["javac", "-cp", spy.LCM_JAR, "-d", tmp_path, probe], check=True)
+    command = spy.java_command(None)
     command[command.index("-cp") + 1] += f":{tmp_path}"
     command[-1] = "SpyProbe"
     picture = BUILD / "spy" / "spy.png"

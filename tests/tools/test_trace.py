@@ -3,7 +3,7 @@
 import json
 from types import SimpleNamespace as Message
 
-from reed_tools import trace_events
+from reed_tools.record import trace_events
 
 
 def timing(cycle: int, missed: int = 0, clock_stood: bool = False) -> tuple:

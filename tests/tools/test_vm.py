@@ -5,7 +5,7 @@ import signal
 import subprocess
 import time
 
-from reed_tools import vm
+from reed_tools.run import vm
 
 
 def inside(script, **options):

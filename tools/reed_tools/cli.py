@@ -8,15 +8,15 @@ import sys
 from reed_tools.errors import ReedError, RunError, UsageError
 
 COMMANDS = {
-    "run": ("run_command", "one hardware-in-the-loop run: figures, plots, report"),
-    "campaign": ("campaign_command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
-    "report": ("report_command", "rebuild figures, plots and report of a run folder"),
-    "inspect": ("inspect_command", "the model and the law as numbers, by the code the firmware runs"),
-    "spy": ("spy_command", "watch every telemetry channel live with lcm-spy"),
-    "doctor": ("doctor_command", "what this machine can and cannot do, with the exact fixes"),
-    "paper": ("paper_command", "the paper's experiments, reproduced on one page"),
-    "bench": ("bench_command", "speed and latency beside what they are compared with"),
-    "test": ("test_command", "all tests, or those that match a filter"),
+    "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
+    "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
+    "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
+    "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
+    "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
+    "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
+    "paper": ("paper.command", "the paper's experiments, reproduced on one page"),
+    "bench": ("bench.command", "speed and latency beside what they are compared with"),
+    "test": ("testing.command", "all tests, or those that match a filter"),
 }
 
 EXIT_STATUS = """exit status: 0 done and every check held; 1 a check or test failed; 2 wrong usage or configuration;

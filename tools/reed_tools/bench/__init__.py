@@ -1,0 +1,1 @@
+"""Speed and latency, measured beside what they are compared with."""

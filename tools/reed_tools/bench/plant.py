@@ -1,0 +1,103 @@
+"""The bending plant beside MuJoCo: simulated over processor time of the arm a5 pressing on a wall, one core, one run.
+`tools/reed bench plant`.
+
+MuJoCo has the same motors and elastic joints; its members are rigid pieces joined by elastic hinges (mujoco_chain.py).
+Each of its integrators runs at the largest step of 4 ms / √2^k at which the state stays bounded."""
+
+import importlib.util
+import json
+import subprocess
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from reed_tools.bench import plant_plot, programs
+from reed_tools.bench.rows import Found, Row
+from reed_tools.errors import RunError
+from reed_tools.paths import program
+
+DEFAULT_STEP_S = 0.5e-3      # plant.max_step_s
+ELEMENTS = (1, 2, 3, 4)      # per member; 1 is the default
+JOINTS = (2, 3, 4, 5, 6, 7, 8)   # of a chain of equal links, one element each
+CUTS = (1, 2, 4)             # of MuJoCo's members: 16, 22, 34 coordinates
+STEPS_S = [4e-3 / 2 ** (k / 2) for k in range(22)]
+INTEGRATORS = ("RK4", "implicit", "implicitfast")
+ANCHORS = ("RK4", "implicit")   # implicitfast, which leaves terms out, is measured and drawn beside them
+FASTEST_RADPS = 50.0         # a held arm that moves faster than this has come apart
+SLICE_S, SLICES = 0.05, 30     # simulated; the quickest counts
+
+
+@dataclass
+class Cost:
+    side: str
+    coordinates: int
+    step_s: float
+    times_real_time: float
+
+
+def measure(_arguments, folder: Path) -> Found:
+    """Both sides; draws folder/plant_speed.png. Every anchor has fewer coordinates than the plant."""
+    if not importlib.util.find_spec("mujoco"):
+        return Found(notes=["the plant is not compared: MuJoCo is missing, it comes with tools/requirements-test.txt"])
+    programs.build("plant_probe")
+    ours = [plant(0, elements, step) for elements in ELEMENTS for step in (2 * DEFAULT_STEP_S, DEFAULT_STEP_S)]
+    joints = [plant(count, 1, DEFAULT_STEP_S) for count in JOINTS]
+    theirs = mujoco_costs(probe("arm"))
+    plant_plot.draw(ours, joints, theirs, folder / "plant_speed.png")
+    default = next(cost for cost in ours if cost.step_s == DEFAULT_STEP_S)
+    rows = [Row(f"bending plant, {default.coordinates} coordinates, × real time", default.times_real_time, cost.times_real_time,
+                "×", 1.0, f"MuJoCo {cost.side}, {cost.coordinates} coordinates", less_is_better=False)
+            for cost in theirs if cost.side in ANCHORS]
+    return Found(rows, details={"plant": [asdict(cost) for cost in (*ours, *joints, *theirs)]})
+
+
+def probe(*arguments) -> dict:
+    done = subprocess.run([program("plant_probe"), *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode:
+        raise RunError(f"plant_probe ended with status {done.returncode}: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+def plant(joints: int, elements: int, step_s: float) -> Cost:
+    """a5, or a chain of so many equal links where `joints` is not zero."""
+    found = probe("bench", joints, 1, elements, step_s, SLICES * SLICE_S)
+    side = f"{joints} joints" if joints else f"{elements} element{'s' if elements > 1 else ''} per member"
+    return tell(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"]), "plant")
+
+
+def tell(cost: Cost, whose: str) -> Cost:
+    print(f"  {whose:7}{cost.side:23}{cost.coordinates:4} coordinates{1e6 * cost.step_s:6.0f} us{cost.times_real_time:8.1f} x real time", flush=True)
+    return cost
+
+
+def mujoco_costs(arm: dict) -> list[Cost]:
+    import mujoco
+    from reed_tools.robots.mujoco_chain import Chain, at_pose
+    mujoco.set_mju_user_warning(lambda _: None)   # what comes apart is counted here, not written into files
+    costs = []
+    for cuts in CUTS:
+        for integrator in INTEGRATORS:
+            chain = Chain(arm, cuts, integrator)
+            floor = float(at_pose(chain.model(1e-5, None)).site("tip").xpos[2]) - 0.0015
+            for step in STEPS_S:
+                model = chain.model(step, floor)
+                if (spent := processor_time(mujoco, model, at_pose(model), step)) is not None:
+                    costs.append(tell(Cost(integrator, model.nv, step, 1.0 / spent), "MuJoCo"))
+                    break
+    return costs
+
+
+def processor_time(mujoco, model, data, step_s: float) -> float | None:
+    """Per simulated second, of the quickest slice; None when the arm comes apart."""
+    fewest, steps = np.inf, max(1, round(SLICE_S / step_s))
+    for _ in range(SLICES):
+        start = time.process_time()
+        mujoco.mj_step(model, data, nstep=steps)
+        fewest = min(fewest, time.process_time() - start)
+        if not np.isfinite(data.qpos).all() or not np.abs(data.qvel).max() < FASTEST_RADPS:
+            return None
+    if data.ncon == 0:
+        raise RunError("MuJoCo's tool lost its contact: the comparison would not be one")
+    return fewest / (steps * step_s)

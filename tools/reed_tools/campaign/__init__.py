@@ -1,0 +1,1 @@
+"""Many runs with drawn numbers, and what holds for all of them."""

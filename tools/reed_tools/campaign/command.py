@@ -1,0 +1,143 @@
+"""tools/reed campaign: many lockstep runs of one scenario with drawn numbers, and whether all of them hold."""
+
+import json
+import os
+import re
+import shutil
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+from reed_tools.campaign import definition, draws, junit, progress, verdicts
+from reed_tools.campaign.definition import Campaign
+from reed_tools.campaign.workers import Workers, build_id, free_bus
+from reed_tools.errors import RunError, UsageError
+from reed_tools.paths import ROOT
+from reed_tools.run import bus_choice
+
+OPTIONS = "options.json"  # of the folder: what --resume goes on with
+SELECTION = ("draws", "first", "count", "shard")
+
+
+def add_arguments(parser) -> None:
+    parser.add_argument("campaign", nargs="?", metavar="CAMPAIGN", help="a name in config/campaigns or a path; default press_known")
+    parser.add_argument("--draws", type=int, metavar="N", help="draws 0 to N-1; default: the campaign's number")
+    parser.add_argument("--from", dest="first", type=int, metavar="I", help="only draws from number I on")
+    parser.add_argument("--count", type=int, metavar="K", help="only K draws")
+    parser.add_argument("--shard", metavar="I/N", help="only the I-th of N equal parts, I from 1: the rest on other machines; "
+                        "lines of their draws.jsonl may be put together and resumed")
+    parser.add_argument("--seed", type=int, metavar="N", help="campaign seed; a draw follows from it and the draw's number")
+    parser.add_argument("--set", action="append", metavar="SECTION.KEY=VALUE", help="override in every draw; repeatable")
+    parser.add_argument("--jobs", type=int, metavar="N", help="draws at a time; default: one per core")
+    parser.add_argument("--repeat", type=int, default=2, metavar="K", help="run the K worst draws twice and compare; default %(default)s")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--out", type=Path, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
+    where.add_argument("--resume", type=Path, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
+
+
+def run(arguments) -> int:
+    for option, least in (("draws", 1), ("first", 0), ("count", 1), ("jobs", 1), ("repeat", 0)):
+        value = getattr(arguments, option)
+        if value is not None and value < least:
+            raise UsageError(f"--{'from' if option == 'first' else option} {value}: allowed: a whole number from {least}")
+    folder, campaign, indices = resumed(arguments) if arguments.resume else begun(arguments)
+    finished = {record.index: record for record in draws.read(folder, campaign.definition())}
+    pending = [index for index in indices if index not in finished]
+    jobs = arguments.jobs or os.cpu_count()
+    print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
+    bus_choice.require_multicast_route()
+    with ExitStack() as stack:
+        build, buses = build_id(), [free_bus(stack) for _ in range(jobs)]
+        interrupted = run_pending(folder, campaign, pending, buses, build, finished)
+        records = [finished[index] for index in indices if index in finished]
+        repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, buses, build)
+    return conclude(folder, campaign, len(indices), records, repeats, interrupted)
+
+
+def begun(arguments) -> tuple[Path, Campaign, list[int]]:
+    source = definition.find(arguments.campaign or "press_known")
+    options = {"seed": arguments.seed, "set": arguments.set or [], **{key: getattr(arguments, key) for key in SELECTION}}
+    campaign = definition.load(source, options["seed"], tuple(options["set"]))
+    indices = selected(campaign, options)
+    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-campaign-{campaign.name}"
+    if (folder / draws.FILE).exists():
+        raise UsageError(f"--out {folder}: holds a campaign already; --resume {folder} goes on with it")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, folder / "campaign.toml")
+        (folder / OPTIONS).write_text(json.dumps(options, indent=2) + "\n")
+    except OSError as error:
+        raise UsageError(f"--out {folder}: {error.strerror}") from None
+    return folder, campaign, indices
+
+
+def resumed(arguments) -> tuple[Path, Campaign, list[int]]:
+    """Draws are those of the folder's campaign; which of them, may be asked for anew."""
+    folder = arguments.resume
+    if arguments.campaign or arguments.seed is not None or arguments.set:
+        raise UsageError("--resume goes on with the folder's own campaign, seed and --set; leave them out")
+    if not (folder / OPTIONS).is_file():
+        raise UsageError(f"--resume {folder}: there is no campaign ({OPTIONS} is missing)")
+    options = json.loads((folder / OPTIONS).read_text())
+    asked = {key: getattr(arguments, key) for key in SELECTION if getattr(arguments, key) is not None}
+    if asked:
+        options.update({key: asked.get(key) for key in SELECTION})
+    campaign = definition.load(folder / "campaign.toml", options["seed"], tuple(options["set"]))
+    return folder, campaign, selected(campaign, options)
+
+
+def selected(campaign: Campaign, options: dict) -> list[int]:
+    first = options["first"] or 0
+    end = first + options["count"] if options["count"] else options["draws"] or campaign.draws
+    indices = list(range(first, end))
+    if options["shard"]:
+        match = re.fullmatch(r"(\d+)/(\d+)", options["shard"])
+        part, parts = (int(text) for text in match.groups()) if match else (0, 0)
+        if not 1 <= part <= parts:
+            raise UsageError(f"--shard {options['shard']}: allowed: I/N with I from 1 to N")
+        indices = indices[part - 1::parts]
+    if not indices:
+        raise UsageError(f"no draw is selected: the draws are 0 to {(options['draws'] or campaign.draws) - 1}, --from {first}")
+    return indices
+
+
+def run_pending(folder: Path, campaign: Campaign, pending: list[int], buses: list[str], build: str, finished: dict) -> bool:
+    """Fills `finished` and the folder's file; True when interrupted."""
+    if not pending:
+        return False
+    with Workers(campaign, pending, len(buses), build, buses) as workers:
+        with progress.shown(campaign.name, len(pending)) as on_record:
+            for record in workers.records():
+                draws.append(folder, record)
+                finished[record.index] = record
+                on_record(record)
+    return workers.interrupted
+
+
+def run_again(campaign: Campaign, records: list, count: int, buses: list[str], build: str) -> list:
+    """The worst draws of this build a second time: equal digests mean equal runs."""
+    worst = [record.index for record in draws.worst_first(records) if record.build == build and record.digest][:count]
+    if not worst:
+        return []
+    with Workers(campaign, worst, len(buses), build, buses) as workers:
+        return list(workers.records())
+
+
+def conclude(folder: Path, campaign: Campaign, wanted: int, records: list, repeats: list, interrupted: bool) -> int:
+    if not records:
+        raise UsageError("interrupted before the first draw was done") if interrupted else RunError("no draw came to its end")
+    from reed_tools.campaign import page, plots, results, table  # numpy, matplotlib: after the runs
+
+    verdict = verdicts.judge(campaign, records, repeats)
+    summary = results.build(campaign, records, wanted, verdict)
+    results.write(folder, summary)
+    junit.write(folder, campaign, records, verdict)
+    path = page.write(folder, summary, (folder / "campaign.toml").read_text(), plots.draw_all(folder, campaign, records))
+    table.show(summary)
+    print(f"report  {path}")
+    died = [record for record in records if record.status == "died"]
+    if interrupted:
+        print(f"interrupted after {len(records)} of {wanted} draws; to go on: tools/reed campaign --resume {folder}")
+    if died:
+        raise RunError(f"a program died in {len(died)} draws; draw {died[0].index}: {died[0].message}")
+    return 0 if verdict.ok and not interrupted else 1

@@ -1,0 +1,52 @@
+"""campaign.html: one file with limits, distributions and the worst draws, readable without a network and in print."""
+
+import html
+from pathlib import Path
+
+from reed_tools.show.html_parts import STYLE, mark, picture, table
+from reed_tools.show.tables import number
+
+FILE = "campaign.html"
+CAPTIONS = {"distributions": "How the figures of the scenario's checks are distributed over the draws.",
+            "causes": "What a bad draw goes along with."}
+
+
+def limits(summary: dict) -> str:
+    rows = [[line["name"], number(line["value"]) if line["value"] is not None else "∞", number(line["limit"]), mark(line["ok"])]
+            for line in summary["limits"]]
+    rows.append(["draws whose second run differed", len(summary["different"]), f"of {summary['repeated']} repeated", mark(not summary["different"])])
+    return table(["", "value", "limit", ""], rows)
+
+
+def figures(summary: dict) -> str:
+    return table(["figure", "limit", "median", "95 %", "worst", "draws beyond"],
+                 [[figure["name"], *(number(figure[key]) for key in ("limit", "median", "p95", "worst", "beyond"))] for figure in summary["figures"]])
+
+
+def worst(summary: dict) -> str:
+    """The command goes under its draw, over the whole width."""
+    rows = []
+    for draw in summary["worst"]:
+        why = draw["deciding"]
+        told = f"{why['name']} = {number(why['value'])} (limit {number(why['limit'])})" if why else ""
+        ratio = number(draw["ratio"], 3) if draw["ratio"] is not None else "∞"
+        seed = next((word for flag, word in zip(draw["command"].split(), draw["command"].split()[1:]) if flag == "--seed"), "")
+        rows.append(f"<tr><td>{draw['index']}</td><td>{seed}</td><td>{ratio}</td><td>{html.escape(draw['message'] or told)}</td></tr>"
+                    f'<tr><td colspan="4"><pre>{html.escape(draw["command"])}</pre></td></tr>')
+    return ("<table><thead><tr><th>draw</th><th>seed</th><th>ratio</th><th>deciding</th></tr></thead><tbody>\n" + "\n".join(rows)
+            + "\n</tbody></table>")
+
+
+def write(folder: Path, summary: dict, definition_text: str, pictures: list[Path]) -> Path:
+    title = html.escape(f"campaign {summary['campaign']}")
+    head = (f'<h1>{title}: <span class="{summary["verdict"]}">{summary["verdict"]}</span></h1>'
+            f"<p>{summary['finished']} of {summary['draws']} draws of {html.escape(summary['scenario'])}, campaign seed {summary['seed']}, "
+            f"lockstep<br>programs {', '.join(summary['builds'])}, definition {summary['definition'][:16]}</p>")
+    shown = "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)
+    sections = [("Limits", limits(summary)), ("Figures", figures(summary)), ("Distributions", shown),
+                ("Worst draws, ready to run again", worst(summary)), ("Definition", f"<pre>{html.escape(definition_text)}</pre>")]
+    body = "\n".join(f"<h2>{name}</h2>\n{content}" for name, content in sections)
+    path = folder / FILE
+    path.write_text(f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: {title}</title>'
+                    f"<style>{STYLE}</style></head><body>\n{head}\n{body}\n</body></html>\n")
+    return path

@@ -1,0 +1,1 @@
+"""From records to figures, checks, pictures and the report of one run."""

@@ -1,0 +1,67 @@
+"""The result of a run as a control engineer wants to read it: verdict and checks, then error by second, bus, timing."""
+
+from rich.table import Table
+
+from reed_tools.show.tables import console, grid, number
+
+
+def checks(summary: dict) -> Table:
+    table = grid("checks", "figure", "value", "limit", "")
+    for check in summary["checks"]:
+        table.add_row(check["name"], number(check["value"]), number(check["limit"]),
+                      "[green]ok[/]" if check["ok"] else "[bold red]FAIL[/]")
+    return table
+
+
+def windows(summary: dict) -> Table:
+    table = grid("error by second", "s", "joint rms", "peak", "tangential", "tip rms", "tangential", "force rms", "peak")
+    table.add_row("", "mrad", "mrad", "mrad", "mm", "mm", "N", "N", style="dim")
+    for window in summary["windows"]:
+        figures = ("joint_rms_mrad", "joint_peak_mrad", "tangential_joint_rms_mrad", "tip_rms_mm",
+                   "tangential_tip_rms_mm", "force_rms_N", "force_peak_N")
+        table.add_row(f"{window['from_s']:g}-{window['to_s']:g}", *(number(window[name], 3) for name in figures))
+    return table
+
+
+def timing(summary: dict) -> Table:
+    table = grid("time per cycle, µs", "phase", "p50", "p99", "p99.9", "max")
+    for phase, figures in summary["timing_us"].items():
+        row = [figures[key] for key in ("p50", "p99", "p999", "max")] if figures else [None] * 4
+        table.add_row(phase, *(number(value, 4) for value in row))
+    return table
+
+
+LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware tells when it ends
+
+
+def lines(summary: dict) -> list[str]:
+    """What does not fit a table."""
+    bus, loop, machine = summary["bus"], summary["loop"], summary.get("machine")
+    wire = number(bus["wire_load_percent"], 3)
+    speed = f", {summary['sim_s'] / summary['wall_s']:.1f}× real time" if summary["wall_s"] else ""
+    return [
+        f"bus    {bus['kind']} {bus['interface']}: {number(bus['frames_rx'])} frames in, {number(bus['frames_tx'])} out, "
+        f"{number(bus['lost'])} lost, {number(bus['crc_errors'])} CRC errors, {number(bus['repeated'])} repeated; "
+        f"{wire} % of a 1/5 Mbit/s wire",
+        f"clock  {summary['clock']}, {summary['rate_hz']:g} Hz, {summary['cycles']} cycles, {number(summary['missed_cycles'])} missed, "
+        f"{number(summary['overruns'])} overruns{speed}",
+        *([f"stalls {machine['stalls']} of the machine, {1e3 * machine['stood_s']:.0f} ms in all, {machine['missed_cycles']} of the missed "
+           "cycles: the arm's clock stood still"] if machine and machine["stalls"] else []),
+        f"loop   {number(loop['heap_allocations'])} heap allocations, {number(loop['page_faults'])} page faults, "
+        f"{number(loop['telemetry_dropped'])} snapshots dropped; "
+        f"scheduler {loop['scheduler'] or 'unknown'}, memory {LOCKED[loop['memory_locked']]}",
+        f"modes  " + " → ".join(f"{mode['mode']}/{mode['force_source']} {mode['t_s']:+.3f} s" for mode in summary["modes"]),
+    ]
+
+
+def show(summary: dict) -> None:
+    out = console()
+    out.print(windows(summary))
+    out.print(timing(summary))
+    for line in lines(summary):
+        out.print(line, soft_wrap=True, highlight=False)
+    out.print()
+    out.print(checks(summary))
+    passed = summary["verdict"] == "pass"
+    out.print(f"{summary['scenario']} on {summary['arm']}: [bold {'green' if passed else 'red'}]{summary['verdict'].upper()}[/]"
+              f"   digest {summary['digest'][:16]}", highlight=False)

@@ -1,0 +1,87 @@
+"""summary.json: every figure of a run, from its effective.toml and its telemetry alone, so that it can be rebuilt."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+
+from reed_tools.figures import checks, metrics
+from reed_tools.record import configuration
+from reed_tools.record.signals import Signals, join
+from reed_tools.record.telemetry_log import Recording
+
+SCHEMA = 1
+
+
+def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
+    effective = configuration.load(folder / "effective.toml")
+    signals = join(recording)
+    run, rate_hz = recording.run, effective["timing"]["rate_hz"]
+    clock = run.clock if run else None
+    verdicts = checks.evaluate(effective["checks"], run_data(effective, recording, signals))
+    arm = effective["arm"]
+    summary = {
+        "schema": SCHEMA,
+        "scenario": effective["scenario"]["name"],
+        "arm": arm["name"],
+        "dof": len(arm["dh"]),
+        "seed": effective["scenario"]["seed"],
+        "law": effective["control"]["law"],
+        "config_sha256": hashlib.sha256((folder / "effective.toml").read_bytes()).hexdigest(),
+        "verdict": "pass" if all(check["ok"] for check in verdicts) else "fail",
+        "checks": verdicts,
+        "bus": bus(recording),
+        **clock_figures(recording, rate_hz),
+        "machine": machine(recording, clock),
+        "timing_us": metrics.timing_us(recording, clock),
+        "loop": {name: getattr(recording.finished_run, name, None) for name in
+                 ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
+        "modes": metrics.modes(recording, rate_hz),
+        "windows": metrics.windows(signals, rate_hz),
+        "parameters": metrics.parameters(recording, [
+            {"name": name, "truth": truth} for name, truth in zip(arm["param_names"], arm["p_true"])]),
+        "digest": recording.digest(clock),
+    }
+    return summary, signals
+
+
+def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
+    return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
+                          configuration.parameter_boxes(effective), configuration.sigma_limits(effective), effective["scenario"]["duration_s"])
+
+
+def bus(recording: Recording) -> dict:
+    run = recording.run
+    counters = recording.singles["REED_BUS"][-1] if recording.singles["REED_BUS"] else None
+    return {"kind": run.bus_kind if run else None, "interface": run.bus_interface if run else None, "fd": True,
+            **{name: getattr(counters, name) if counters else None for name in
+               ("frames_rx", "frames_tx", "lost", "crc_errors", "repeated")},
+            "wire_load_percent": round(run.wire_load_percent, 3) if run else None}
+
+
+def clock_figures(recording: Recording, rate_hz: float) -> dict:
+    cycles, timing, run = recording.tables["REED_MEASURED"]["cycle"], recording.tables["REED_TIMING"], recording.run
+    count = int(cycles[-1] - cycles[0] + 1) if len(cycles) else 0
+    some = recording.has("REED_TIMING")
+    return {"clock": run.clock if run else None, "rate_hz": rate_hz, "cycles": count,
+            "missed_cycles": int(timing["missed"][-1]) if some else None,
+            "overruns": int(timing["overruns"][-1]) if some else None,
+            "wall_s": round(recording.finished_run.wall_s, 6) if recording.finished_run else None, "sim_s": round(count / rate_hz, 6)}
+
+
+def machine(recording: Recording, clock: str | None) -> dict | None:
+    """What the machine took from the run: how often it ran neither program, for how long the arm's clock stood still with them,
+    and the cycles missed meanwhile. None where no clock is followed."""
+    timing, plant = recording.tables["REED_TIMING"], recording.tables["REED_PLANT"]
+    if clock != "wall" or not recording.has("REED_TIMING") or not recording.has("REED_PLANT"):
+        return None
+    # A stall before the cycle is told in its own answer, one behind the answer in the next cycle's.
+    told = timing["clock_stood"].astype(bool)
+    away = told | np.append(told[1:], False)
+    return {"stalls": int(plant["stalls"][-1]), "stood_s": round(float(plant["stood_s"][-1]), 6),
+            "missed_cycles": int(np.diff(timing["missed"], prepend=0)[away].sum())}
+
+
+def write(folder: Path, summary: dict) -> None:
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")

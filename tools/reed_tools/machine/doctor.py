@@ -1,0 +1,147 @@
+"""tools/reed doctor: what this machine can and cannot do, with the exact fix for each."""
+
+import ctypes
+import os
+import platform
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.markup import escape
+
+from reed_tools.machine import spy
+from reed_tools.paths import ROOT
+from reed_tools.run import bus_choice
+from reed_tools.show.tables import console, grid
+
+MCL_CURRENT = 1
+LIMITS_FIX = "echo '@realtime - rtprio 99\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
+             "sudo groupadd -f realtime; sudo usermod -aG realtime $USER; log in again"
+
+
+@dataclass
+class Finding:
+    subject: str
+    good: bool
+    detail: str
+    fix: str = ""
+
+
+def can() -> Finding:
+    if bus_choice.kernel_has_can():
+        return Finding("SocketCAN", True, "in the kernel")
+    return Finding("SocketCAN", False, f"kernel {platform.release()} has none",
+                   "sudo modprobe can_raw (a kernel built with CAN); until then --bus vm or --bus udp")
+
+
+def vcan() -> Finding:
+    name = bus_choice.VCAN
+    if bus_choice.interface_exists(name):
+        return Finding(name, True, "exists")
+    return Finding(name, False, "does not exist",
+                   f"sudo modprobe vcan; sudo ip link add {name} type vcan; sudo ip link set {name} mtu 72 up")
+
+
+def can_interfaces() -> Finding:
+    found = [path.name for path in Path("/sys/class/net").iterdir()
+             if (path / "type").read_text().strip() == "280" and not path.name.startswith("vcan")]
+    fix = "sudo ip link set can0 up type can bitrate 1000000 dbitrate 5000000 fd on (docs/hil.md)"
+    return Finding("CAN hardware", bool(found), ", ".join(found) or "no interface", "" if found else fix)
+
+
+def small_vm() -> Finding:
+    missing = [package for package, path in (("user-mode-linux", "linux.uml"), ("busybox-static", "busybox"), ("can-utils", "candump"))
+               if not shutil.which(path)]
+    return Finding("small VM (--bus vm)", not missing, "ready" if not missing else f"missing {', '.join(missing)}",
+                   f"sudo apt-get install {' '.join(missing)}" if missing else "")
+
+
+def multicast() -> Finding:
+    good = bus_choice.multicast_works()
+    return Finding("loopback multicast", good, "works" if good else "no route or switched off on lo",
+                   "" if good else " && ".join(f"sudo {command}" for command in bus_choice.ROUTE_FIX))
+
+
+def telemetry_url() -> Finding:
+    url = os.environ.get("LCM_DEFAULT_URL")
+    return Finding("telemetry (LCM)", True, f"LCM_DEFAULT_URL={url}" if url else "udpm://239.255.76.67:7667?ttl=0 (default)")
+
+
+def scheduler() -> Finding:
+    good = subprocess.run(["chrt", "-f", "81", "true"], capture_output=True).returncode == 0
+    return Finding("SCHED_FIFO priority 81", good, "granted" if good else "refused", "" if good else LIMITS_FIX)
+
+
+def memory_lock() -> Finding:
+    libc = ctypes.CDLL(None, use_errno=True)
+    good = libc.mlockall(MCL_CURRENT) == 0
+    if good:
+        libc.munlockall()
+    return Finding("memory lock", good, "granted" if good else os.strerror(ctypes.get_errno()), "" if good else LIMITS_FIX)
+
+
+def kernel_preemption() -> Finding:
+    realtime = Path("/sys/kernel/realtime").exists()
+    version = os.uname().version
+    model = "PREEMPT_RT" if realtime else "PREEMPT_DYNAMIC" if "PREEMPT_DYNAMIC" in version else "not PREEMPT_RT"
+    return Finding("kernel preemption", realtime, model,
+                   "" if realtime else "sudo apt-get install linux-image-rt-amd64; reboot (better wake-up latency)")
+
+
+def throttling() -> Finding:
+    value = int(Path("/proc/sys/kernel/sched_rt_runtime_us").read_text())
+    return Finding("real-time throttling", value == -1, "off" if value == -1 else f"{value} of 1000000 µs",
+                   "" if value == -1 else "matters only above 95 % load: sudo sysctl kernel.sched_rt_runtime_us=-1")
+
+
+def governor() -> Finding:
+    files = sorted(Path("/sys/devices/system/cpu").glob("cpu[0-9]*/cpufreq/scaling_governor"))
+    found = sorted({file.read_text().strip() for file in files})
+    if not files:
+        return Finding("CPU governor", True, "not under this system's control")
+    good = found == ["performance"]
+    return Finding("CPU governor", good, ", ".join(found),
+                   "" if good else "echo performance | sudo tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor")
+
+
+def processors() -> Finding:
+    count = len(os.sched_getaffinity(0))
+    isolated = Path("/sys/devices/system/cpu/isolated").read_text().strip()
+    return Finding("processors", count >= 2, f"{count} usable, isolated: {isolated or 'none'}",
+                   "" if count >= 2 else "the loop shares its core with everything else: give the machine a second one")
+
+
+def java() -> Finding:
+    missing = spy.missing_packages()
+    return Finding("Java for spy", not missing, "ready" if not missing else f"missing {', '.join(missing)}",
+                   f"sudo apt-get install {' '.join(missing)}" if missing else "")
+
+
+def disk() -> Finding:
+    free = shutil.disk_usage(ROOT).free / 2**30
+    return Finding("free disk", free > 2, f"{free:.0f} GiB", "" if free > 2 else "a minute of records takes about 0.1 GB")
+
+
+FINDINGS = (can, vcan, can_interfaces, small_vm, multicast, telemetry_url, scheduler, memory_lock, kernel_preemption,
+            throttling, governor, processors, java, disk)
+
+
+def add_arguments(parser) -> None:
+    pass
+
+
+def run(arguments) -> int:
+    table = grid(f"{platform.system()} {platform.release()}, {platform.machine()}", "what", "", "found", numbers=False)
+    found = [finding() for finding in FINDINGS]
+    for item in found:
+        table.add_row(item.subject, "[green]yes[/]" if item.good else "[yellow]no[/]", escape(item.detail))
+    out = console()
+    out.print(table)
+    for item in found:
+        if item.fix:
+            out.print(f"[bold]{item.subject}[/]: {escape(item.fix)}", soft_wrap=True, highlight=False)
+    buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
+    usable = [buses[item.subject] for item in found if item.good and item.subject in buses]
+    out.print(f"run works here with --bus {' or '.join(usable)}" if usable else "run works here over no bus yet, see above", highlight=False)
+    return 0

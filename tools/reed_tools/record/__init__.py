@@ -1,0 +1,1 @@
+"""What a run leaves behind, read: telemetry logs, messages, signals, configuration."""

@@ -1,0 +1,1 @@
+"""Models of the arm beside the controller's own, and the arm as a picture."""

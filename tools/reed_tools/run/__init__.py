@@ -1,0 +1,1 @@
+"""One run: its bus, its two programs, its progress, its end."""

@@ -1,0 +1,38 @@
+"""From a scenario and overrides to the one effective.toml that both programs read.
+
+Names, keys, units and ranges are checked by the C++ reader (program reed_config): there is no second reader here.
+"""
+
+import subprocess
+from pathlib import Path
+
+from reed_tools.errors import RunError, UsageError
+from reed_tools.figures import checks
+from reed_tools.paths import program
+from reed_tools.record import configuration
+
+SHORT_OPTIONS = {"rate": "timing.rate_hz", "duration": "scenario.duration_s", "seed": "scenario.seed"}
+
+
+def overrides(arguments) -> list[str]:
+    """--set entries, then the options that are a number of the scenario under a shorter name."""
+    given = {key: getattr(arguments, option) for option, key in SHORT_OPTIONS.items()}
+    return [*arguments.set, *(f"{key}={value}" for key, value in given.items() if value is not None)]
+
+
+def write_effective(scenario: str, arm: str | None, entries: list[str], target: Path) -> dict:
+    """Validates everything, writes `target`, returns it parsed."""
+    command = [str(program("reed_config")), "--config", scenario, "--write", str(target)]
+    if arm:
+        command += ["--arm", arm]
+    for entry in entries:
+        command += ["--set", entry]
+    done = subprocess.run(command, capture_output=True, text=True)
+    message = done.stderr.strip() or done.stdout.strip()
+    if done.returncode == 2:
+        raise UsageError(message)
+    if done.returncode != 0:
+        raise RunError(f"reed_config ended with status {done.returncode}: {message}")
+    effective = configuration.load(target)
+    checks.require_known(effective["checks"], where=scenario)
+    return effective

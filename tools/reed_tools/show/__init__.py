@@ -1,0 +1,1 @@
+"""How results look: pictures, tables, parts of a page."""

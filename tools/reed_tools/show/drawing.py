@@ -1,0 +1,38 @@
+"""How every picture looks: colours, type, margins. Drawn to files only: no window, no display."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+# Okabe-Ito: distinguishable in print and by every reader; line styles repeat the distinction.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
+STYLE = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
+         "lines.linewidth": 1.1, "legend.frameon": False, "legend.fontsize": 8, "figure.dpi": 110, "savefig.dpi": 160,
+         "axes.prop_cycle": matplotlib.cycler(color=COLOURS)}
+WIDTH_IN = 7.4
+
+
+def panels(count: int, height_in: float):
+    figure, axes = plt.subplots(count, 1, sharex=True, figsize=(WIDTH_IN, height_in), squeeze=False)
+    set_margins(figure)
+    return figure, axes[:, 0]
+
+
+def set_margins(figure, right_in: float = 0.15, top_in: float = 0.3, **spaces) -> None:
+    """Fixed margins: the same axes in every picture, and no search for a layout."""
+    width, height = figure.get_size_inches()
+    figure.subplots_adjust(left=0.72 / width, right=1 - right_in / width, bottom=0.48 / height, top=1 - top_in / height,
+                           **{"hspace": 0.14, **spaces})
+
+
+def legend_right(figure, *axes) -> None:
+    set_margins(figure, right_in=1.35)
+    for axis in axes:
+        axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def label_left(axis, text: str) -> None:
+    """At the same place in every panel, however long the numbers beside it are."""
+    axis.set_ylabel(text)
+    axis.yaxis.set_label_coords(-0.056, 0.5)

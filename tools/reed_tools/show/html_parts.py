@@ -1,0 +1,31 @@
+"""What every page is made of: one file, readable without a network and in print."""
+
+import base64
+import html
+from pathlib import Path
+
+STYLE = """
+body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.5rem;margin-bottom:0} h2{font-size:1.1rem;margin-top:2rem;border-bottom:1px solid #ccc}
+table{border-collapse:collapse;margin:.6rem 0} th,td{padding:.15rem .8rem .15rem 0;text-align:right;border-bottom:1px solid #eee}
+th:first-child,td:first-child{text-align:left} th{font-weight:600}
+.pass{color:#00703c}.fail{color:#b00020} img{width:100%;margin:.6rem 0} pre{white-space:pre-wrap;font-size:12px;background:#f6f6f6;padding:.8rem}
+@media print{body{max-width:none;margin:0} img,table{break-inside:avoid}}
+"""
+
+
+def table(head: list[str], rows: list[list]) -> str:
+    def cells(tag: str, values: list) -> str:
+        return "".join(f"<{tag}>{value}</{tag}>" for value in values)
+
+    body = "\n".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
+    return f"<table><thead><tr>{cells('th', head)}</tr></thead><tbody>\n{body}\n</tbody></table>"
+
+
+def mark(ok: bool) -> str:
+    return '<span class="pass">ok</span>' if ok else '<span class="fail"><b>FAIL</b></span>'
+
+
+def picture(path: Path, caption: str) -> str:
+    data = base64.b64encode(path.read_bytes()).decode()
+    return f'<figure><img alt="{html.escape(caption)}" src="data:image/png;base64,{data}"><figcaption>{html.escape(caption)}</figcaption></figure>'

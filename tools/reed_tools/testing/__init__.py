@@ -1,0 +1,1 @@
+"""All tests: which runners there are, and what they say."""

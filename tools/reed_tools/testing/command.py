@@ -1,0 +1,53 @@
+"""tools/reed test: every test there is. The bootstrap has built everything before this starts.
+
+A filter selects by name: FILTER… runs every test whose name contains one of them, and the stages of that name
+(layout, tidy, asan, tsan). Without a filter clang-tidy reads the files that changed last; `test tidy` reads all."""
+
+import os
+import subprocess
+import time
+
+from reed_tools.errors import UsageError
+from reed_tools.paths import BUILD, ROOT
+from reed_tools.testing.stages import Stage, all_stages
+
+
+def add_arguments(parser) -> None:
+    parser.add_argument("filters", nargs="*", metavar="FILTER",
+                        help="only tests whose name contains one of these, or a stage: layout, tidy, asan, tsan")
+
+
+def run(arguments) -> int:
+    stages = all_stages(arguments.filters)
+    for stage in stages:
+        execute(stage)
+    done = [stage for stage in stages if stage.closing_lines]
+    if not done:
+        raise UsageError(f"no test matches {' '.join(arguments.filters)}")
+    print()
+    for stage in done:
+        print(f"{stage.name} ({stage.seconds:.0f} s)")
+        for line in stage.closing_lines:
+            print(line)
+    return 0 if all(stage.ok for stage in done) else 1
+
+
+def execute(stage: Stage) -> None:
+    """Streams the stage's output and keeps its runner's closing lines."""
+    print(f"== {stage.name}", flush=True)
+    started = time.monotonic()
+    environment = {**os.environ, "REED_BUILD_DIR": str(BUILD), "PYTHONDONTWRITEBYTECODE": "1"}
+    process = subprocess.Popen(stage.command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, errors="replace")
+    for line in process.stdout:
+        print(line, end="", flush=True)
+        if stage.closing.search(line):
+            stage.closing_lines.append(line.rstrip())
+    status = process.wait()
+    stage.seconds = time.monotonic() - started
+    if status in stage.nothing_to_do:
+        stage.closing_lines.clear()
+        return
+    stage.ok = status == 0
+    if not stage.closing_lines:
+        stage.closing_lines = ["ok" if stage.ok else f"FAILED with status {status}"]

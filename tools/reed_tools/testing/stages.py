@@ -1,0 +1,121 @@
+"""What `tools/reed test` consists of: one stage per runner."""
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from reed_tools.paths import BUILD, ROOT
+from reed_tools.run import bus_choice, vm
+
+CORES = len(os.sched_getaffinity(0))
+CTEST_CLOSING = re.compile(r"tests passed|tests failed|Total Test time|\(Failed\)|\(Timeout\)|No tests were found|Not Run")
+PYTEST_CLOSING = re.compile(r"^(=+ .*(passed|failed|error|deselected|no tests ran).* =+|FAILED |ERROR )")
+GTEST_CLOSING = re.compile(r"^\[  (PASSED|FAILED)  \]|Sanitizer: |runtime error:")
+TIDY_CLOSING = re.compile(r"(error|warning): .*\[[\w.-]+")
+PYTEST_NO_TEST = 5
+MOST_WORKERS = 3  # one of them flies as long as the others together need for the rest
+
+# What the sanitizers can find without the weight of Eigen: bytes from outside (bus), threads (rt, telemetry). Addresses and
+# undefined behaviour in one build, which costs half of two (CMakePresets.json).
+SANITIZED = {"asan": ("bus_test", "rt_test", "telemetry_test"), "tsan": ("rt_test", "telemetry_test")}
+
+
+@dataclass
+class Stage:
+    name: str
+    command: list[str]
+    closing: re.Pattern
+    nothing_to_do: tuple[int, ...] = ()   # statuses that mean: the filter left nothing
+    ok: bool = False
+    seconds: float = 0.0
+    closing_lines: list[str] = field(default_factory=list)
+
+
+def all_stages(filters: list[str]) -> list[Stage]:
+    """In the order of running: quick ones first, the runners that everybody knows last."""
+    def wanted(name: str) -> bool:
+        return not filters or name in filters
+
+    stages = [layout()] if wanted("layout") else []
+    if wanted("tidy"):
+        stages.append(tidy(everything="tidy" in filters))
+    stages += [sanitizer(name) for name in SANITIZED if wanted(name)]
+    names = [text for text in filters if text not in ("layout", "tidy", *SANITIZED)]
+    if names or not filters:
+        stages += [ctest(names, socketcan=False), ctest(names, socketcan=True), pytest(names)]
+    return [stage for stage in stages if stage]
+
+
+def tracked(*patterns: str) -> list[str]:
+    listed = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, capture_output=True, text=True).stdout.split()
+    return [name for name in listed if (ROOT / name).exists()]
+
+
+def changed_last(files: list[str]) -> list[str]:
+    """Those of `files` that differ from the commit before the last one."""
+    done = subprocess.run(["git", "diff", "--name-only", "HEAD~1"], cwd=ROOT, capture_output=True, text=True)
+    return [name for name in files if name in set(done.stdout.split())]
+
+
+def layout() -> Stage:
+    return Stage("layout: clang-format", ["clang-format-14", "--dry-run", "-Werror", *tracked("*.h", "*.cc")], re.compile("error:"))
+
+
+def tidy(everything: bool) -> Stage | None:
+    database = database_for_clang()
+    built = (database / "compile_commands.json").read_text()  # the other side of a bench is built only where it is installed
+    files = [name for name in tracked("*.cc") if f'{ROOT / name}"' in built]
+    if not everything:
+        files = changed_last(files)
+    if not files:
+        return None
+    run = f"printf '%s\\n' {' '.join(files)} | xargs -P {CORES} -n 1 clang-tidy-14 --quiet -p {database}"
+    return Stage(f"tidy: {len(files)} files", ["bash", "-c", run], TIDY_CLOSING)
+
+
+def database_for_clang() -> Path:
+    """The folder of a compilation database without GCC's precompiled headers, which clang cannot read."""
+    folder = BUILD / "tidy"
+    folder.mkdir(exist_ok=True)
+    commands = (BUILD / "compile_commands.json").read_text()
+    (folder / "compile_commands.json").write_text(re.sub(r"-Winvalid-pch -include \S+/cmake_pch\.hxx ", "", commands))
+    return folder
+
+
+def ctest(names: list[str], socketcan: bool) -> Stage | None:
+    """The tests labelled socketcan need a CAN interface: the kernel's own where it has vcan, else the small VM's."""
+    selection = ["-L", "socketcan"] if socketcan else ["-LE", "socketcan", "-j", str(CORES)]
+    if names:
+        selection += ["-R", "|".join(re.escape(text) for text in names)]
+    base = ["ctest", "--test-dir", str(BUILD), *selection]
+    if names and "Total Tests: 0" in subprocess.run([*base, "-N"], capture_output=True, text=True).stdout:
+        return None
+    junit = BUILD / ("socketcan-tests.xml" if socketcan else "unit-tests.xml")
+    stage = Stage("SocketCAN tests" if socketcan else "unit tests",
+                  [*base, "--no-tests=error", "--output-on-failure", "--output-junit", str(junit)], CTEST_CLOSING)
+    if socketcan and not bus_choice.vcan_ready(bus_choice.VCAN):
+        stage.name += ", in the small VM"
+        stage.command = vm.command(stage.command)
+    return stage
+
+
+def pytest(names: list[str]) -> Stage:
+    command = [sys.executable, "-m", "pytest", "tests", f"--junit-xml={BUILD / 'python-tests.xml'}"]
+    if not names:
+        command += ["-n", str(min(CORES, MOST_WORKERS)), "--dist", "loadscope"]  # tests/conftest.py says what stays together
+    else:
+        command += ["-k", " or ".join(re.sub(r"\W+", "_", text) for text in names)]
+    return Stage("Python tests and whole runs", command, PYTEST_CLOSING, nothing_to_do=(PYTEST_NO_TEST,) if names else ())
+
+
+def sanitizer(name: str) -> Stage:
+    build, targets = ROOT / "build" / name, SANITIZED[name]
+    steps = [f"cmake --preset {name} -DREED_PYTHON={sys.executable} >{build}.log", f"ninja -C {build} {' '.join(targets)} >>{build}.log",
+             # A sanitizer's runtime makes system calls of its own, which the guard of the loop's calls rightly kills; and a
+             # thread sanitizer's shadow memory is too large to be locked.
+             *(f"{build}/bin/{target} --gtest_brief=1 --gtest_filter=-SyscallGuard.*:RealtimeScope.*" for target in targets)]
+    return Stage(f"{name}: {', '.join(targets)}", ["bash", "-c", " && ".join(steps) + f" || {{ tail -5 {build}.log; exit 1; }}"],
+                 GTEST_CLOSING)
