@@ -6,7 +6,7 @@
 #include "reed/config/schema/scenario_file.h"
 #include "reed/core/safety/limits.h"
 #include "reed/core/separated.h"
-#include "reed/firmware/planner/path_planner.h"
+#include "reed/firmware/setup/path_planner.h"
 
 namespace reed::bench {
 

@@ -33,11 +33,11 @@ class Stages {
   }
 
   /// (22), with the weights of the current estimate.
-  void NodalCompensation(int k) noexcept {
+  void StaticDeflection(int k) noexcept {
     const model::Bodies<N> bodies = model::BodiesFor<N, P>(arm_, adaptive_.p_hat);
     model::Wrench press;
     press.F = {0.0, 0.0, 10.0};
-    Keep(model::CompensateNodes<N, P>(arm_, state(k).kin, bodies, press));
+    Keep(model::CompensateDeflection<N, P>(arm_, state(k).kin, bodies, press));
   }
 
   /// With the kinematics it needs, as the other side's.

@@ -4,8 +4,8 @@
 #include "reed/core/law/known_force.h"
 #include "reed/core/law/unknown_force.h"
 #include "reed/core/model/dynamics.h"
-#include "reed/core/model/nodal_compensation.h"
 #include "reed/core/model/regressor.h"
+#include "reed/core/model/static_deflection.h"
 
 namespace reed::embedded {
 namespace {
@@ -91,7 +91,7 @@ void Core::Step(const Case& in, Result& out) noexcept {
   const model::Bodies<N> bodies = model::BodiesFor<N, P>(arm_, p_hat);
   model::Wrench press;
   press.F = in.F_d * Eigen::Vector3d::UnitZ();
-  Write(model::CompensateNodes<N, P>(arm_, kin, bodies, press).offset, out.nodal);
+  Write(model::CompensateDeflection<N, P>(arm_, kin, bodies, press).offset, out.nodal);
   const model::MomentumModel<N> m = model::GeneralisedMomentum<N>(bodies, kin, arm_.gravity);
   observer_.Reset(Vec::Zero());
   Write(observer_.Update(m.momentum, U + m.free_rate), out.observed);

@@ -8,12 +8,16 @@
 
 #include "reed/bus/codec/messages.h"
 #include "reed/bus/transport/transport.h"
-#include "reed/core/measurement.h"
+#include "reed/core/controller.h"
 #include "reed/firmware/snapshot/snapshot.h"
 #include "reed/rt/clock.h"
 #include "reed_layout.h"
 
 namespace reed {
+
+static_assert(static_cast<int>(DriveState::kFault) == static_cast<int>(bus::DriveState::kFault) &&
+              static_cast<int>(DriveState::kBraked) == static_cast<int>(bus::DriveState::kBraked) &&
+              static_cast<int>(DriveRequest::kEnable) == static_cast<int>(bus::DriveRequest::kEnable));
 
 template <int N>
 class ArmBus {
@@ -28,8 +32,8 @@ class ArmBus {
     cycle_ = cycle;
     answered_ = 0;
     wrench_came_ = wrench_heard_ = false;
-    measurement_.foreign_controller = measurement_.clock_stood = false;
-    measurement_.surplus_joint = -1;
+    measurement_.foreign_controller = clock_stood_ = false;
+    measurement_.unexpected_joint = -1;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
     Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), 0, tap);
@@ -57,10 +61,9 @@ class ArmBus {
   }
 
   /// `at_ns`: time since the cycle's start, for the record.
-  void SendCommand(bus::DriveRequest request, const Eigen::Matrix<double, N, 1>& tau, std::int64_t at_ns,
-                   telemetry::Snapshot& tap) noexcept {
-    bus::CommandMessage message{cycle_, request, {}};
-    for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = tau[i];
+  void SendCommand(const Command<N>& command, std::int64_t at_ns, telemetry::Snapshot& tap) noexcept {
+    bus::CommandMessage message{cycle_, static_cast<bus::DriveRequest>(command.request), {}};
+    for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = command.torque[i];
     Send(encoder_.Command(message), rt::ShortNs(at_ns), tap);
   }
 
@@ -68,7 +71,13 @@ class ArmBus {
   const bus::DecodeCounters& decode_counters() const noexcept { return decoder_.counters(); }
   const bus::TransportCounters& transport_counters() const noexcept { return transport_.counters(); }
   bool alive() const noexcept { return transport_.alive(); }
-  bool simulated() const noexcept { return simulated_; }
+  bool clock_stood() const noexcept { return clock_stood_; }
+  /// What was missed while the arm's own clock stood still did it no harm. Real drives never say so; a simulated arm
+  /// may with its next answer, and one that stays silent stops by its age.
+  bool ExcusesMisses() const noexcept {
+    const bool answered = !simulated_ || measurement_.YoungestAge() == 0;
+    return clock_stood_ || !answered;
+  }
   std::int64_t late_frames() const noexcept { return late_; }
 
  private:
@@ -106,7 +115,7 @@ class ArmBus {
 
   void TakeJoint(const bus::Decoded& decoded) noexcept {
     if (decoded.joint >= N) {
-      if (decoded.reject == bus::Reject::kNone) measurement_.surplus_joint = decoded.joint;
+      if (decoded.reject == bus::Reject::kNone) measurement_.unexpected_joint = decoded.joint;
       return;
     }
     const std::size_t i = static_cast<std::size_t>(decoded.joint);
@@ -115,7 +124,7 @@ class ArmBus {
       return;
     }
     const bus::JointStateMessage& state = decoded.joint_state;
-    measurement_.clock_stood = measurement_.clock_stood || (simulated_ && state.clock_stood);
+    clock_stood_ = clock_stood_ || (simulated_ && state.clock_stood);
     const int late =
         static_cast<int>((cycle_ - state.cycle_low4) & 0xFu);  // cycles since the SYNC it answers
     if (late == 0) {
@@ -127,7 +136,7 @@ class ArmBus {
     measurement_.theta[decoded.joint] = state.position_rad;
     measurement_.theta_dot[decoded.joint] = state.velocity_radps;
     measurement_.torque[decoded.joint] = state.torque_Nm;
-    measurement_.drive[i] = state.state;
+    measurement_.drive[i] = static_cast<DriveState>(state.state);
     measurement_.age[i] = late;
   }
 
@@ -158,6 +167,7 @@ class ArmBus {
   std::array<bus::Frame, 32> received_{};
   std::uint32_t cycle_ = 0;
   std::uint32_t answered_ = 0;   // bit per joint
+  bool clock_stood_ = false;     // says an answer of this cycle: the simulated arm's clock had stood still
   bool wrench_came_ = false;     // this cycle's
   bool wrench_heard_ = false;    // any, in this cycle
   bool wrench_expected_ = true;  // worth waiting for

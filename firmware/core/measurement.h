@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "reed/bus/codec/messages.h"
+#include "reed/core/safety/drive_state.h"
 
 namespace reed {
 
@@ -13,14 +13,13 @@ struct Measurement {
   Eigen::Matrix<double, N, 1> theta = Eigen::Matrix<double, N, 1>::Zero();      // rad, motor side
   Eigen::Matrix<double, N, 1> theta_dot = Eigen::Matrix<double, N, 1>::Zero();  // rad/s, motor side
   Eigen::Matrix<double, N, 1> torque = Eigen::Matrix<double, N, 1>::Zero();     // N·m, applied by the drives
-  std::array<bus::DriveState, static_cast<std::size_t>(N)> drive{};
+  std::array<DriveState, static_cast<std::size_t>(N)> drive{};
   std::array<int, static_cast<std::size_t>(N)> age{};  // cycles, 0: of this cycle
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N, environment on robot, base axes, at the tool point
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m
   int wrench_age = kNever;                           // cycles
   bool foreign_controller = false;                   // somebody else sends SYNC or COMMAND
-  int surplus_joint = -1;    // 0-based, of a state frame for a joint that the arm does not have
-  bool clock_stood = false;  // says an answer of this cycle: the simulated arm's clock had stood still
+  int unexpected_joint = -1;  // 0-based, of a state frame for a joint that the arm does not have
 
   static constexpr int kNever = 1'000'000;  // ages stop here
 
@@ -36,13 +35,13 @@ struct Measurement {
     for (const int a : age) youngest = a < youngest ? a : youngest;
     return youngest;
   }
-  bool AllDrives(bus::DriveState state) const noexcept {
-    for (const bus::DriveState s : drive)
+  bool AllDrives(DriveState state) const noexcept {
+    for (const DriveState s : drive)
       if (s != state) return false;
     return true;
   }
-  bool AnyDrive(bus::DriveState state) const noexcept {
-    for (const bus::DriveState s : drive)
+  bool AnyDrive(DriveState state) const noexcept {
+    for (const DriveState s : drive)
       if (s == state) return true;
     return false;
   }

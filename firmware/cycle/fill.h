@@ -6,8 +6,8 @@
 
 #include "reed/bus/codec/messages.h"
 #include "reed/bus/transport/transport.h"
+#include "reed/core/controller.h"
 #include "reed/core/measurement.h"
-#include "reed/core/separated.h"
 #include "reed/firmware/snapshot/snapshot.h"
 
 namespace reed::telemetry {
@@ -16,6 +16,18 @@ template <typename Derived, std::size_t K>
 void Fill(std::array<double, K>& to, const Eigen::MatrixBase<Derived>& from) noexcept {
   for (Eigen::Index i = 0; i < from.size() && i < static_cast<Eigen::Index>(K); ++i)
     to[static_cast<std::size_t>(i)] = from(i);
+}
+
+inline void FillEvents(const EventList& events, Snapshot& out) noexcept {
+  for (const reed::Event& from : events) {
+    Event to;
+    to.mode = static_cast<std::int8_t>(from.mode);
+    to.force_source = static_cast<std::int8_t>(from.source);
+    to.code = static_cast<std::int32_t>(from.code);
+    to.joint = from.joint;
+    to.value = from.value;
+    out.AddEvent(to);
+  }
 }
 
 template <int N>
@@ -33,8 +45,12 @@ void FillMeasured(const Measurement<N>& m, Measured& out) noexcept {
 }
 
 template <int N, int P>
-void FillControl(const strategy::Decision<N>& d, const strategy::Separated<N, P>& strategy,
-                 Control& out) noexcept {
+void FillControl(const Controller<N, P>& controller, Control& out) noexcept {
+  const strategy::Decision<N>& d = controller.decision();
+  const strategy::Separated<N, P>& strategy = controller.strategy();
+  out.t_s = controller.time_s();
+  out.mode = static_cast<std::int8_t>(controller.mode());
+  out.limits = controller.limits();
   out.force_source = static_cast<std::int8_t>(d.source);
   Fill(out.theta_plan, d.plan.theta_d);
   Fill(out.theta_d, d.desired.theta_d);
@@ -44,6 +60,7 @@ void FillControl(const strategy::Decision<N>& d, const strategy::Separated<N, P>
   Fill(out.v, d.aux.v);
   Fill(out.v_dot, d.aux.v_dot);
   Fill(out.tau_law, d.tau_law);
+  Fill(out.tau, controller.command().torque);
   Fill(out.D, d.normal.D);
   Fill(out.normal, strategy.normal());
   out.f_d = d.force.f_d;

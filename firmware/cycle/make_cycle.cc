@@ -1,24 +1,25 @@
+#include "reed/firmware/cycle/make_cycle.h"
+
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "reed/firmware/cycle/cycle_base.h"
 
 namespace reed {
 
 template <int N>
 std::unique_ptr<CycleBase> MakeCycleFor(const Scenario& scenario, bus::Transport& transport,
-                                        bool start_wanted);
+                                        bool start_wanted, const strategy::ExternalLaw* law);
 
 namespace {
 
 /// The first N of the list that is the arm's number of joints.
 template <int... N>
 std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Scenario& scenario,
-                                bus::Transport& transport, bool start_wanted) {
+                                bus::Transport& transport, bool start_wanted,
+                                const strategy::ExternalLaw* law) {
   std::unique_ptr<CycleBase> cycle;
   const bool found =
-      ((scenario.arm.dof() == N && (cycle = MakeCycleFor<N>(scenario, transport, start_wanted), true)) ||
+      ((scenario.arm.dof() == N && (cycle = MakeCycleFor<N>(scenario, transport, start_wanted, law), true)) ||
        ...);
   if (!found)
     throw std::runtime_error("arm.dh: " + std::to_string(scenario.arm.dof()) +
@@ -28,8 +29,9 @@ std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Scenario
 
 }  // namespace
 
-std::unique_ptr<CycleBase> MakeCycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted) {
-  return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted);
+std::unique_ptr<CycleBase> MakeCycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted,
+                                     const strategy::ExternalLaw* law) {
+  return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted, law);
 }
 
 }  // namespace reed

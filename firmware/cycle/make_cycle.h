@@ -1,30 +1,18 @@
-// One translation unit per number of joints includes this: the instantiations compile side by side. Set-up
-// only.
+// The cycle for an arm's number of joints. RT: set-up only.
 #pragma once
 
 #include <memory>
-#include <stdexcept>
-#include <string>
 
-#include "reed/firmware/cycle/cycle.h"
+#include "reed/bus/transport/transport.h"
+#include "reed/config/description/scenario.h"
+#include "reed/core/law/external_law.h"
+#include "reed/firmware/cycle/cycle_base.h"
 
 namespace reed {
 
-/// Parameters the loop has room for. Unused columns of Y are zero and cost time, and every capacity costs a
-/// translation unit that compiles for half a minute, so each number of joints gets one: 7 and the known part
-/// fill two AVX registers.
-template <int N>
-inline constexpr int kLoopParameters = N <= 5 ? 7 : kMaxParameters;
-
-template <int N>
-std::unique_ptr<CycleBase> MakeCycleFor(const Scenario& scenario, bus::Transport& transport,
-                                        bool start_wanted) {
-  constexpr int P = kLoopParameters<N>;
-  if (scenario.arm.num_parameters() > P)
-    throw std::runtime_error("arm.param_names: " + std::to_string(scenario.arm.num_parameters()) +
-                             " parameters; the loop of " + std::to_string(N) + " joints allows 0 ... " +
-                             std::to_string(P));
-  return std::make_unique<Cycle<N, P>>(scenario, transport, start_wanted);
-}
+/// For 2 … 8 joints. start_wanted: the operator's wish to open the brakes. law: from outside; nullptr: the scenario's.
+/// Throws std::runtime_error with one line.
+std::unique_ptr<CycleBase> MakeCycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted,
+                                     const strategy::ExternalLaw* law = nullptr);
 
 }  // namespace reed

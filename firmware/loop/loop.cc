@@ -11,24 +11,7 @@ constexpr std::int64_t kFirstTurn_ns = 1'000'000'000;
 constexpr std::int64_t kNextTurn_ns = 50'000'000;
 constexpr std::int64_t kFullRing_ns = 200'000;  // lockstep: how often a full ring is looked at again
 
-std::int32_t Nanoseconds(double us) { return static_cast<std::int32_t>(us * 1e3); }
-
 }  // namespace
-
-LoopOptions LoopOptionsFrom(const TimingConfig& timing) {
-  static_assert(static_cast<int>(TimingConfig::Overrun::kStop) == static_cast<int>(rt::OverrunPolicy::kStop));
-  static_assert(static_cast<int>(TimingConfig::PhaseAction::kFault) ==
-                static_cast<int>(rt::PhaseAction::kFault));
-  LoopOptions options;
-  options.rate_hz = timing.rate_hz;
-  options.phases.budget_ns = {Nanoseconds(timing.rx_budget_us), Nanoseconds(timing.compute_budget_us),
-                              Nanoseconds(timing.tx_budget_us)};
-  options.phases.action = static_cast<rt::PhaseAction>(timing.phase_action);
-  options.phases.max_in_row = timing.max_broken_in_row;
-  options.overrun = static_cast<rt::OverrunPolicy>(timing.overrun);
-  options.max_missed_in_row = timing.max_missed_in_row;
-  return options;
-}
 
 LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
                    const std::atomic<bool>& stop) noexcept {
@@ -41,7 +24,7 @@ LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
   const rt::MonotonicClock clock;
   Stepper stepper(cycle, ring);
   LoopResult result;
-  LoopState state;
+  CycleState state;
   const std::int64_t start_ns = clock.NowNs();
   Silence silence(start_ns);
   bool lost = false;

@@ -18,9 +18,6 @@ struct LoopOptions {
   int max_missed_in_row = 19;
 };
 
-/// As the scenario's [timing] says.
-LoopOptions LoopOptionsFrom(const TimingConfig& timing);
-
 struct LoopResult {
   CycleStatus status = CycleStatus::kRunning;
   std::int64_t cycles = 0, missed = 0, overruns = 0, dropped = 0;

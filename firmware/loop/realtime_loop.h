@@ -84,7 +84,7 @@ class WallLoop {
   std::int64_t period_ns_;
   Stepper stepper_;
   rt::PhaseMonitor phases_;
-  LoopState state_;
+  CycleState state_;
   std::int64_t last_start_ns_ = 0;
   int row_before_ = 0;  // of missed points, without those of the last cycle
   LoopResult result_;

@@ -16,7 +16,7 @@ class Stepper {
 
   /// Runs one cycle. The snapshot stays open for what the loop has to say about it, until Close().
   CycleStatus Step(std::int64_t now_ns, std::int64_t wake_ns, std::int64_t rx_deadline_ns,
-                   const LoopState& state, LoopResult& result) noexcept {
+                   const CycleState& state, LoopResult& result) noexcept {
     slot_ = ring_.Claim();
     if (slot_ == nullptr) ++result.dropped;
     telemetry::Snapshot& now = snapshot();

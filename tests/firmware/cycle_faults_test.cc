@@ -267,7 +267,7 @@ TEST(Cycle, ALawThatTracksTheForceStopsWhenTheForceIsNoLongerMeasured) {
 TEST(Cycle, MissedCyclesInARowAreAFault) {
   SilRig rig(PressKnown());
   ASSERT_TRUE(rig.RunActive(0.1));
-  LoopState loop;
+  CycleState loop;
   loop.missed_in_row_exceeded = true;
   loop.missed_in_row = 21;
   rig.Run(loop);

@@ -93,7 +93,7 @@ TEST(Cycle, TheOperatorsStopEndsAWatchedRunToo) {
     SilRig rig(PressKnown(), enable);
     for (int i = 0; i < 300; ++i) rig.Run();
     EXPECT_EQ(rig.mode(), enable ? Mode::kActive : Mode::kReady);
-    LoopState loop;
+    CycleState loop;
     loop.stop_wanted = true;
     int cycles = 0;
     while (rig.Run(loop) == CycleStatus::kRunning && cycles < 100) ++cycles;

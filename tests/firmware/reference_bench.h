@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/firmware/planner/path_planner.h"
+#include "reed/firmware/setup/path_planner.h"
 #include "reed/tests/support/arms.h"
 
 namespace reed::reference {

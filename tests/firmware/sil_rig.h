@@ -72,7 +72,7 @@ class SilRig {
         cycle_(MakeCycle(scenario_, transport_, enable)) {}
 
   /// One cycle; what happened is in snapshot() and truth().
-  CycleStatus Run(const LoopState& loop = {}) {
+  CycleStatus Run(const CycleState& loop = {}) {
     snapshot_.ClearLists();
     snapshot_.cycle = number_;
     snapshot_.time_ns = rt::MonotonicClock{}.NowNs();

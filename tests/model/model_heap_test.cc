@@ -1,8 +1,8 @@
 // Everything that the loop asks of the model, without the heap.
 #include <gtest/gtest.h>
 
-#include "reed/core/model/nodal_compensation.h"
 #include "reed/core/model/regressor.h"
+#include "reed/core/model/static_deflection.h"
 #include "reed/tests/model/states.h"
 #include "reed/tests/support/no_alloc.h"
 
@@ -25,7 +25,7 @@ TEST(Model, OneCycleTouchesNoHeap) {
       const Bodies<5> bodies = BodiesFor(arm, arm.p_nominal);
       const MomentumModel<5> momentum = GeneralisedMomentum(bodies, kin, arm.gravity);
       sum = regressor.f(arm.p_nominal) + momentum.momentum + momentum.free_rate +
-            CompensateNodes(arm, kin, bodies, Wrench{}).offset;
+            CompensateDeflection(arm, kin, bodies, Wrench{}).offset;
     }
     EXPECT_TRUE(sum.allFinite());
   }

@@ -1,8 +1,7 @@
 // (22): the bent arm with its motors at θ_d against the plan of the rigid one.
-#include "reed/core/model/nodal_compensation.h"
-
 #include <gtest/gtest.h>
 
+#include "reed/core/model/static_deflection.h"
 #include "reed/tests/model/states.h"
 
 namespace reed::model {
@@ -37,7 +36,7 @@ TipErrors Compare(const ArmModel<5, 6>& arm, const Vec<5>& q, const Wrench& tip)
   Kinematics<5> plan;
   ForwardKinematics<5>(arm, q, Vec<5>::Zero(), plan);
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
-  const Vec<5> theta_d = q + CompensateNodes(arm, plan, bodies, tip).offset;
+  const Vec<5> theta_d = q + CompensateDeflection(arm, plan, bodies, tip).offset;
   return {(BentTip(arm, bodies, tip, q) - plan.tip).norm(),
           (BentTip(arm, bodies, tip, theta_d) - plan.tip).norm()};
 }
@@ -48,7 +47,7 @@ Vec<5> MidPose(test::Draw& draw) {
                 draw.Number(3.0));
 }
 
-TEST(NodalCompensation, TheBentTipGoesWhereThePlannedTipIs) {
+TEST(StaticDeflection, TheBentTipGoesWhereThePlannedTipIs) {
   const ArmModel<5, 6> arm(test::ArmA5());
   test::Draw draw(31);
   for (int n = 0; n < 200; ++n) {
@@ -58,7 +57,7 @@ TEST(NodalCompensation, TheBentTipGoesWhereThePlannedTipIs) {
   }
 }
 
-TEST(NodalCompensation, CountsTheForceOfAContact) {
+TEST(StaticDeflection, CountsTheForceOfAContact) {
   const ArmModel<5, 6> arm(test::ArmA5());
   test::Draw draw(32);
   for (int n = 0; n < 200; ++n) {
@@ -67,7 +66,7 @@ TEST(NodalCompensation, CountsTheForceOfAContact) {
   }
 }
 
-TEST(NodalCompensation, FollowsSpringsThatHarden) {
+TEST(StaticDeflection, FollowsSpringsThatHarden) {
   ArmDescription description = test::ArmA5();
   description.joint_hardening_Nmprad3 = std::vector<double>(5, 5e9);  // as stiff again at 1.3 mrad
   const ArmModel<5, 6> arm(description);
@@ -78,22 +77,22 @@ TEST(NodalCompensation, FollowsSpringsThatHarden) {
   }
 }
 
-TEST(NodalCompensation, MotorLeadsJointByTorqueOverStiffness) {
+TEST(StaticDeflection, MotorLeadsJointByTorqueOverStiffness) {
   const ArmModel<5, 6> arm(test::ArmA5());
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.2, 0.8, -1.4, 0.3, 0.1), Vec<5>::Zero(), kin);
   const Vec<5> xi = GravityTorque(bodies, kin, arm.gravity).cwiseQuotient(arm.joint_stiffness);
-  EXPECT_NEAR((CompensateNodes(arm, kin, bodies, Wrench{}).spring - xi).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((CompensateDeflection(arm, kin, bodies, Wrench{}).spring - xi).norm(), 0.0, 1e-15);
 }
 
-TEST(NodalCompensation, AStretchedArmGetsAFiniteAnswer) {
+TEST(StaticDeflection, AStretchedArmGetsAFiniteAnswer) {
   const ArmModel<5, 6> arm(test::ArmA5());
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.0, 1.5707963267948966, 0.0, -1.5707963267948966, 0.0), Vec<5>::Zero(),
                        kin);
-  EXPECT_LT(CompensateNodes(arm, kin, bodies, {Eigen::Vector3d(5.0, 5.0, 5.0), Eigen::Vector3d::Zero()})
+  EXPECT_LT(CompensateDeflection(arm, kin, bodies, {Eigen::Vector3d(5.0, 5.0, 5.0), Eigen::Vector3d::Zero()})
                 .offset.norm(),
             0.1);
 }

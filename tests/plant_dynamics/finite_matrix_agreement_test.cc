@@ -1,7 +1,7 @@
 // The bending plant at rest against the controller's finite matrix analysis (4)-(6): two routes, one arm.
 #include <gtest/gtest.h>
 
-#include "reed/core/model/nodal_compensation.h"
+#include "reed/core/model/static_deflection.h"
 #include "reed/firmware/stiffness/finite_matrix_arm.h"
 #include "reed/plant/dynamics/modes.h"
 #include "reed/tests/plant_dynamics/bench.h"
@@ -52,7 +52,7 @@ TEST_P(AgreementTest, TipStiffnessIsThatOfTheFiniteMatrixAnalysis) {
 
 TEST_P(AgreementTest, NodalCompensationBringsThePlantsTipToThePlan) {
   const model::Bodies<5> bodies = model::BodiesFor(arm_, arm_.p_true);
-  const Vec<5> theta_d = q_ + model::CompensateNodes(arm_, kin_, bodies, model::Wrench{}).offset;
+  const Vec<5> theta_d = q_ + model::CompensateDeflection(arm_, kin_, bodies, model::Wrench{}).offset;
   plant::ArmModes plain(test::ArmA5(), PlantConfig{}, q_), compensated(test::ArmA5(), PlantConfig{}, theta_d);
   const double without = (plain.Load(Vector3d::Zero(), true) - kin_.tip).norm();
   const double with = (compensated.Load(Vector3d::Zero(), true) - kin_.tip).norm();

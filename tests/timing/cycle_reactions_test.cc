@@ -15,7 +15,7 @@ Scenario Pressing() {
 }
 
 /// One cycle in which the loop says `state`; the snapshot before it.
-telemetry::Snapshot StepWith(test::SilRig& rig, const LoopState& state) {
+telemetry::Snapshot StepWith(test::SilRig& rig, const CycleState& state) {
   const telemetry::Snapshot before = rig.snapshot();
   rig.Run(state);
   return before;
@@ -24,7 +24,7 @@ telemetry::Snapshot StepWith(test::SilRig& rig, const LoopState& state) {
 TEST(CycleReactions, HoldRepeatsTheLastCommandAndTheNextCycleComputesAgain) {
   test::SilRig rig(Pressing());
   ASSERT_TRUE(rig.RunActive(0.3));
-  LoopState hold;
+  CycleState hold;
   hold.hold = true;
   const telemetry::Snapshot before = StepWith(rig, hold);
   EXPECT_EQ(rig.snapshot().control.tau, before.control.tau);
@@ -35,10 +35,10 @@ TEST(CycleReactions, HoldRepeatsTheLastCommandAndTheNextCycleComputesAgain) {
 }
 
 TEST(CycleReactions, TheObserverLearnsNothingAcrossAHeldCycleOrAGap) {
-  LoopState hold, gap;
+  CycleState hold, gap;
   hold.hold = true;
   gap.gap = true;
-  for (const LoopState& state : {hold, gap}) {
+  for (const CycleState& state : {hold, gap}) {
     test::SilRig rig(Pressing());
     ASSERT_TRUE(rig.RunActive(0.2));  // the path is at full speed
     const telemetry::Snapshot before = StepWith(rig, state);
@@ -52,7 +52,7 @@ TEST(CycleReactions, TheObserverLearnsNothingAcrossAHeldCycleOrAGap) {
 TEST(CycleReactions, DegradeStopsLearningAndKeepsControlling) {
   test::SilRig rig(Pressing());
   ASSERT_TRUE(rig.RunActive(0.3));
-  LoopState degrade;
+  CycleState degrade;
   degrade.degrade = true;
   const telemetry::Snapshot before = StepWith(rig, degrade);
   EXPECT_EQ(rig.snapshot().adaptation.p_hat, before.adaptation.p_hat);
@@ -65,7 +65,7 @@ TEST(CycleReactions, DegradeStopsLearningAndKeepsControlling) {
 TEST(CycleReactions, TooManyBrokenBudgetsInARowStopTheArmInTheSameCycle) {
   test::SilRig rig(Pressing());
   ASSERT_TRUE(rig.RunActive(0.3));
-  LoopState broken;
+  CycleState broken;
   broken.phase_budget_exceeded = true;
   broken.broken_in_row = 21;
   rig.Run(broken);
@@ -85,15 +85,15 @@ void MarkTheNextAnswers(test::SilRig& rig) {
   };
 }
 
-LoopState TooManyMisses() {
-  LoopState missed;
+CycleState TooManyMisses() {
+  CycleState missed;
   missed.missed_in_row_exceeded = true;
   missed.missed_in_row = 42;
   return missed;
 }
 
 TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
-  const LoopState missed = TooManyMisses();
+  const CycleState missed = TooManyMisses();
   for (const bool stood : {false, true}) {
     test::SilRig rig(Pressing());
     ASSERT_TRUE(rig.RunActive(0.3));
@@ -111,7 +111,7 @@ TEST(CycleReactions, TooManyMissesInARowStopTheArmUnlessItsOwnClockStoodStill) {
 }
 
 TEST(CycleReactions, TooManyMissesInARowWaitForASimulatedArmsAnswer) {
-  const LoopState missed = TooManyMisses();
+  const CycleState missed = TooManyMisses();
   for (const bool stood : {false, true}) {
     test::SilRig rig(Pressing());
     ASSERT_TRUE(rig.RunActive(0.3));

@@ -22,7 +22,7 @@ class FakeCycle final : public CycleBase {
 
   std::function<CycleCost(std::uint32_t)> cost = [](std::uint32_t) { return CycleCost{}; };
 
-  CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const LoopState& loop,
+  CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const CycleState& loop,
                   telemetry::Snapshot& snapshot) noexcept override {
     const CycleCost now = cost(cycle);
     started_ns.push_back(clock_.NowNs());
@@ -44,7 +44,7 @@ class FakeCycle final : public CycleBase {
   protect::Reason trip() const noexcept override { return protect::Reason::kNone; }
 
   std::vector<std::int64_t> started_ns, rx_deadline;
-  std::vector<LoopState> seen;
+  std::vector<CycleState> seen;
   bool silent = false;
   bool active = true;  // otherwise nothing stops it
   int stopped_at = -1;

@@ -23,7 +23,7 @@ TEST(PhaseBudget, CountOnlyCountsAndTellsOnceWithTheLastThreeCycles) {
   Rig rig(12);
   SlowCompute(rig);
   rig.Run();
-  for (const LoopState& state : rig.cycle.seen) {
+  for (const CycleState& state : rig.cycle.seen) {
     EXPECT_FALSE(state.hold);
     EXPECT_FALSE(state.degrade);
   }

@@ -1,7 +1,7 @@
 // Compliance and static deflection (4)-(6), (22) of a case. RT: set-up only.
 #pragma once
 
-#include "reed/core/model/nodal_compensation.h"
+#include "reed/core/model/static_deflection.h"
 #include "reed/firmware/stiffness/finite_matrix_arm.h"
 #include "reed/firmware/stiffness/semidefinite_solver.h"
 #include "reed/inspect/rigid_cases.h"
@@ -81,7 +81,7 @@ void PutSag(const Arm<N>& arm, const model::Kinematics<N>& kin, NamedValues& out
   const model::Vec6 sag = bent.tip_links.AsVector() + bent.tip_joints.AsVector();
   out.SetVector("tip_sag", sag);
   PutNodes("node_sag", arm, kin, loads, model::JointModel::kElastic, out);
-  out.SetVector("theta_d_offset", model::CompensateNodes(arm, kin, bodies, model::Wrench{}).offset);
+  out.SetVector("theta_d_offset", model::CompensateDeflection(arm, kin, bodies, model::Wrench{}).offset);
 }
 
 template <int N>

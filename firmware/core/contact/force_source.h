@@ -8,28 +8,29 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "reed/config/description/scenario.h"
-
 namespace reed::strategy {
 
 /// kObserver: the arm presses, and the momentum observer stands in for the sensor.
 enum class ForceSource : std::int8_t { kNone = 0, kKnown = 1, kUnknown = 2, kObserver = 3 };
+
+/// What is known of the force, as configured. kAuto: by the age of the wrench.
+enum class SourceSetting : std::uint8_t { kNone, kKnown, kUnknown, kAuto };
 
 class SourceSelector {
  public:
   static constexpr int kLossCycles = 3;
   static constexpr int kReturnCycles = 100;
 
-  explicit SourceSelector(ForceConfig::Source configured) noexcept : configured_(configured) {}
+  explicit SourceSelector(SourceSetting configured) noexcept : configured_(configured) {}
 
   /// wrench_age: cycles since the last sound frame. presses: a normal force is wanted now.
   ForceSource Step(int wrench_age, bool presses) noexcept {
     fresh_in_row_ = wrench_age == 0 ? std::min(fresh_in_row_ + 1, kReturnCycles) : 0;
     if (wrench_age >= kLossCycles) lost_ = true;
     if (fresh_in_row_ >= kReturnCycles) lost_ = false;
-    using Source = ForceConfig::Source;
-    if (configured_ == Source::kNone) return ForceSource::kNone;
-    const bool known = configured_ == Source::kKnown || (configured_ == Source::kAuto && !lost_);
+    if (configured_ == SourceSetting::kNone) return ForceSource::kNone;
+    const bool known =
+        configured_ == SourceSetting::kKnown || (configured_ == SourceSetting::kAuto && !lost_);
     if (known) return ForceSource::kKnown;
     return presses ? ForceSource::kObserver : ForceSource::kUnknown;
   }
@@ -39,7 +40,7 @@ class SourceSelector {
   int fresh_in_row() const noexcept { return fresh_in_row_; }
 
  private:
-  ForceConfig::Source configured_;
+  SourceSetting configured_;
   int fresh_in_row_ = 0;
   bool lost_ = false;
 };

@@ -12,13 +12,15 @@
 #pragma once
 
 #include <array>
-#include <stdexcept>
-#include <string>
 
+#include "reed/core/contact/force_source.h"
 #include "reed/core/law/adaptive_state.h"
 #include "reed/core/law/computed_torque.h"
+#include "reed/core/law/external_law.h"
+#include "reed/core/law/law_names.h"
 #include "reed/core/law/paper_printed.h"
 #include "reed/core/law/pd.h"
+#include "reed/core/measurement.h"
 #include "reed/core/model/regressor.h"
 
 namespace reed::strategy {
@@ -34,18 +36,24 @@ struct LawInput {
   const model::Vec<N>& JtF_d;               // 0 unless the arm presses
   const model::Vec<N>& r;                   // observed disturbance; 0 where it must not be subtracted
   double T;
+  double t_s;  // since the arm became active
+  const control::Reference<N>& desired;
+  double f;  // normal force as known, N
+  const Measurement<N>& measured;
+  ForceSource source;
+  bool adapts;                  // the estimates move this cycle
+  const ExternalLaw* external;  // nullptr unless the law is one from outside
 };
 
 template <int N, int P>
 struct Law {
   using Torque = model::Vec<N> (*)(const LawInput<N, P>&, const AdaptiveState<N, P>&) noexcept;
   using Learn = void (*)(const LawInput<N, P>&, AdaptiveState<N, P>&) noexcept;
-  const char* name;
   Torque known, unknown;
   Learn learn_known, learn_unknown;
-  bool force_loop;     // the force error enters v (30)
-  bool acceleration;   // v, v̇ are θ̇ and ComputedAcceleration: computed torque
-  bool nodal_allowed;  // θ_d may be corrected by the model's deflection
+  bool force_loop;          // the force error enters v (30)
+  bool acceleration;        // v, v̇ are θ̇ and ComputedAcceleration: computed torque
+  bool deflection_allowed;  // θ_d may be corrected by the static deflection
 };
 
 template <int N, int P>
@@ -55,11 +63,10 @@ class LawBank {
   using State = AdaptiveState<N, P>;
   using V = model::Vec<N>;
 
-  /// Throws std::runtime_error for a name that is none.
-  static const Law<N, P>& Find(const std::string& name) {
-    for (const Law<N, P>& law : kLaws)
-      if (name == law.name) return law;
-    throw std::runtime_error("control.law: \"" + name + "\" is no law");
+  /// external: not nullptr for kExternal.
+  static const Law<N, P>& Get(LawId id, const ExternalLaw* external = nullptr) noexcept {
+    if (id != LawId::kExternal) return kLaws[static_cast<std::size_t>(id)];
+    return kExternalLaws[external->traits & (REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION)];
   }
 
  private:
@@ -145,18 +152,53 @@ class LawBank {
     x.sigma_1 += in.T * control::Sigma1Rate<N>(in.gains.sliding.c_1, in.s);
   }
 
-  // name, torque known / unknown, learn known / unknown, force loop, computed acceleration, nodal
-  // displacement
+  /// reed/law.h: the same torque whatever is known of the force; what it adapts is its own.
+  static V External(const In& in, const State&) noexcept {
+    const control::Reference<N>& ref = in.desired;
+    const reed_law_input input{
+        .joints = N,
+        .parameters = in.arm.num_parameters,
+        .period_s = in.T,
+        .time_s = in.t_s,
+        .adapt = in.adapts ? 1 : 0,
+        .source = static_cast<std::int32_t>(in.source),
+        .theta = in.measured.theta.data(),
+        .theta_dot = in.measured.theta_dot.data(),
+        .theta_d = ref.theta_d.data(),
+        .theta_d_dot = ref.theta_d_dot.data(),
+        .theta_d_ddot = ref.theta_d_ddot.data(),
+        .v = in.aux.v.data(),
+        .v_dot = in.aux.v_dot.data(),
+        .s = in.s.data(),
+        .Y = in.regressor.Y.data(),
+        .f_known = in.regressor.f_known.data(),
+        .p_0 = in.gains.p_0.data(),
+        .J_m = in.arm.rotor_inertia.data(),
+        .Jt_F_d = in.JtF_d.data(),
+        .f_n = in.f,
+        .r = in.r.data(),
+    };
+    in.external->step(&input, in.external->state, in.external->output);
+    return Eigen::Map<const V>(in.external->output->torque);
+  }
+
+  // In the order of LawId: torque known / unknown, learn known / unknown, force loop, computed acceleration, static
+  // deflection.
   static constexpr std::array<Law<N, P>, 7> kLaws{{
-      {"separated", RobustKnown, RobustUnknown, LearnRobustKnown, LearnRobustUnknown, true, false, true},
-      {"pd", Pd, Pd, LearnNothing, LearnNothing, false, false, false},
-      {"pd_tuned", Pd, Pd, LearnNothing, LearnNothing, false, false, false},
-      {"computed_torque", Computed, Computed, LearnNothing, LearnNothing, false, true, false},
-      {"fixed_nominal", FixedKnown, FixedUnknown, LearnNothing, LearnNothing, true, false, true},
-      {"paper_printed", PrintedKnown, PrintedUnknown, LearnPrintedKnown, LearnPrintedUnknown, false, false,
-       false},
-      {"paper_corrected", FixedKnown, CorrectedUnknown, LearnCorrectedKnown, LearnCorrectedUnknown, true,
-       false, false},
+      {RobustKnown, RobustUnknown, LearnRobustKnown, LearnRobustUnknown, true, false, true},
+      {Pd, Pd, LearnNothing, LearnNothing, false, false, false},
+      {Pd, Pd, LearnNothing, LearnNothing, false, false, false},
+      {Computed, Computed, LearnNothing, LearnNothing, false, true, false},
+      {FixedKnown, FixedUnknown, LearnNothing, LearnNothing, true, false, true},
+      {PrintedKnown, PrintedUnknown, LearnPrintedKnown, LearnPrintedUnknown, false, false, false},
+      {FixedKnown, CorrectedUnknown, LearnCorrectedKnown, LearnCorrectedUnknown, true, false, false},
+  }};
+  // By the traits of reed/law.h.
+  static constexpr std::array<Law<N, P>, 4> kExternalLaws{{
+      {External, External, LearnNothing, LearnNothing, false, false, false},
+      {External, External, LearnNothing, LearnNothing, true, false, false},
+      {External, External, LearnNothing, LearnNothing, false, false, true},
+      {External, External, LearnNothing, LearnNothing, true, false, true},
   }};
 };
 

@@ -1,16 +1,10 @@
 // The constants of one arm as the controller believes it to be, in the sizes and the form that the recursions
-// want. N joints, P structural parameters. SI. Built once from the description (set-up only: throws
-// std::invalid_argument); afterwards plain numbers, no heap. RT: reading is safe.
+// want. N joints, P structural parameters. SI. Plain numbers, no heap, filled once (firmware/setup/arm_model.h).
+// RT: reading is safe.
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "reed/config/description/arm_description.h"
 #include "reed/core/model/fixed_array.h"
 #include "reed/core/model/mass_moments.h"
 
@@ -66,154 +60,6 @@ struct ArmModel {
   int num_members;
   FixedArray<int, N>
       carrier;  // the longer member of each link, which carries its weight; -1: the link has none
-
-  ArmModel() = default;  // empty: for a target without a heap, whose fields are filled from an image
-  explicit ArmModel(const ArmDescription& arm);
-
- private:
-  void ReadParameters(const ArmDescription& arm);
-  void ReadBodies(const ArmDescription& arm);
-  void ReadMembers(const ArmDescription& arm);
-  void AddMember(const ArmDescription& arm, Member beam);
 };
-
-namespace internal {
-
-/// Per-joint list of the description as a vector; `absent` where the file did not say.
-template <int N>
-Vec<N> PerJoint(const std::vector<double>& list, double absent, const char* name) {
-  if (list.empty()) return Vec<N>::Constant(absent);
-  if (static_cast<int>(list.size()) != N) {
-    throw std::invalid_argument(std::string(name) + ": " + std::to_string(list.size()) + " entries for " +
-                                std::to_string(N) + " joints");
-  }
-  return Eigen::Map<const Vec<N>>(list.data());
-}
-
-/// What remains of a body after its parameters were taken out; rounding residue of the subtraction counts as
-/// nothing.
-inline MassMoments WithoutResidue(MassMoments rest, const MassMoments& total) {
-  constexpr double kResidue = 1e-13;
-  if (std::abs(rest.m) <= kResidue * std::abs(total.m)) rest.m = 0.0;
-  if (rest.h.norm() <= kResidue * (total.h.norm() + std::abs(total.m))) rest.h.setZero();
-  if (rest.J.norm() <= kResidue * (total.J.norm() + std::abs(total.m))) rest.J.setZero();
-  return rest;
-}
-
-}  // namespace internal
-
-template <int N, int P>
-ArmModel<N, P>::ArmModel(const ArmDescription& arm)
-    : gravity(arm.gravity_mps2), tool_offset(arm.tool_offset_m) {
-  if (arm.dof() != N) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.dof()) +
-                                " joints, the model is built for " + std::to_string(N));
-  }
-  for (int i = 0; i < N; ++i) {
-    const DhRow& row = arm.dh[static_cast<std::size_t>(i)];
-    cos_alpha(i) = std::cos(row.alpha_rad);
-    sin_alpha(i) = std::sin(row.alpha_rad);
-    a(i) = row.a_m;
-    d(i) = row.d_m;
-  }
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  rotor_inertia = internal::PerJoint<N>(arm.rotor_inertia_kgm2, 0.0, "rotor inertia");
-  joint_stiffness = internal::PerJoint<N>(arm.joint_stiffness_Nmprad, kInfinity, "joint stiffness");
-  joint_hardening = internal::PerJoint<N>(arm.joint_hardening_Nmprad3, 0.0, "joint hardening");
-  torque_limit = internal::PerJoint<N>(arm.torque_limit_Nm, kInfinity, "torque limit");
-  position_min = internal::PerJoint<N>(arm.position_min_rad, -kInfinity, "lower position limit");
-  position_max = internal::PerJoint<N>(arm.position_max_rad, kInfinity, "upper position limit");
-  speed_limit = internal::PerJoint<N>(arm.speed_limit_radps, kInfinity, "speed limit");
-  ReadParameters(arm);
-  ReadBodies(arm);
-  ReadMembers(arm);
-}
-
-template <int N, int P>
-void ArmModel<N, P>::ReadParameters(const ArmDescription& arm) {
-  num_parameters = arm.num_parameters();
-  if (num_parameters > P) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(num_parameters) +
-                                " parameters, the model is built for at most " + std::to_string(P));
-  }
-  viscous.setZero();
-  p_true.setZero();
-  p_nominal.setZero();
-  p_lo.setZero();
-  p_hi.setZero();
-  for (int k = 0; k < num_parameters; ++k) {
-    const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
-    p_true(k) = parameter.truth;
-    p_nominal(k) = parameter.nominal;
-    p_lo(k) = parameter.lo;
-    p_hi(k) = parameter.hi;
-    viscous.col(k) = internal::PerJoint<N>(parameter.viscous_weights, 0.0, "viscous weights");
-  }
-}
-
-/// Known part of a body = its total minus truth times unit of every parameter.
-template <int N, int P>
-void ArmModel<N, P>::ReadBodies(const ArmDescription& arm) {
-  if (static_cast<int>(arm.bodies.size()) != N) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.bodies.size()) + " bodies for " +
-                                std::to_string(N) + " joints");
-  }
-  int count = 0;
-  for (int b = 0; b < N; ++b) {
-    first_shape[b] = count;
-    const MassMoments total(arm.bodies[static_cast<std::size_t>(b)]);
-    MassMoments known = total;
-    for (int k = 0; k < num_parameters; ++k) {
-      const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
-      MassMoments unit;
-      for (const ParameterShape& part : parameter.shapes) {
-        if (part.body == b) unit.Add(1.0, MassMoments(part.unit));
-      }
-      if (unit.IsZero()) continue;
-      shape[count++] = {k, unit};
-      known.Add(-parameter.truth, unit);
-    }
-    known = internal::WithoutResidue(known, total);
-    if (!known.IsZero()) shape[count++] = {P, known};
-  }
-  first_shape[N] = count;
-}
-
-/// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
-/// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
-template <int N, int P>
-void ArmModel<N, P>::ReadMembers(const ArmDescription& arm) {
-  num_members = 0;
-  for (int i = 0; i < N; ++i) {
-    carrier[i] = -1;
-    if (arm.sections.empty()) continue;
-    if (d(i) != 0.0) AddMember(arm, {i, 2, -d(i), 0.0});
-    if (i + 1 < N && a(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, a(i + 1)});
-  }
-  if (static_cast<int>(arm.sections.size()) != num_members) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.sections.size()) + " sections for " +
-                                std::to_string(num_members) + " members (non-zero d and a)");
-  }
-}
-
-template <int N, int P>
-void ArmModel<N, P>::AddMember(const ArmDescription& arm, Member beam) {
-  const int j = num_members++;
-  if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
-  const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
-  beam.length = std::abs(beam.end_at - beam.start_at);
-  if (std::abs(section.length_m - beam.length) > 1e-6) {
-    throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
-                                std::to_string(section.length_m) + " m long, its DH entry " +
-                                std::to_string(beam.length) + " m");
-  }
-  beam.EA = section.EA_N;
-  beam.EI = section.EI_Nm2;
-  beam.GJ = section.GJ_Nm2;
-  beam.rhoA = section.rhoA_kgpm;
-  member[j] = beam;
-  int& longest = carrier[beam.link];
-  if (longest < 0 || beam.length > member[longest].length) longest = j;
-}
 
 }  // namespace reed::model

@@ -4,8 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "reed/config/description/arm_description.h"
-
 namespace reed::model {
 
 /// Skew-symmetric part of a matrix as a vector: n with n_k = eps_kij B_ji, so that B = b rᵀ gives r × b.
@@ -22,11 +20,11 @@ struct MassMoments {
   MassMoments() = default;
 
   /// From mass, centre and inertia about the centre (axes of the link).
-  explicit MassMoments(const InertialBody& body)
-      : m(body.mass_kg),
-        h(body.mass_kg * body.com_m),
-        J(0.5 * body.inertia_com_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_com_kgm2 +
-          body.mass_kg * body.com_m * body.com_m.transpose()) {}
+  MassMoments(double mass_kg, const Eigen::Vector3d& com_m, const Eigen::Matrix3d& inertia_com_kgm2)
+      : m(mass_kg),
+        h(mass_kg * com_m),
+        J(0.5 * inertia_com_kgm2.trace() * Eigen::Matrix3d::Identity() - inertia_com_kgm2 +
+          mass_kg * com_m * com_m.transpose()) {}
 
   void Add(double scale, const MassMoments& other) {
     m += scale * other.m;

@@ -4,16 +4,12 @@
 
 #include <algorithm>
 
-#include "reed/config/description/scenario.h"
 #include "reed/core/reference/minimum_jerk.h"
 
 namespace reed::reference {
 
 struct ForceProfile {
   double desired_N = 0.0, start_s = 0.0, ramp_s = 0.3, end_s = 1e9;
-
-  explicit ForceProfile(const ForceConfig& config) noexcept
-      : desired_N(config.desired_N), start_s(config.start_s), ramp_s(config.ramp_s), end_s(config.end_s) {}
 
   bool Wanted(double t_s) const noexcept { return desired_N > 0.0 && t_s >= start_s && t_s < end_s + ramp_s; }
 

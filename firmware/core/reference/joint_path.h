@@ -1,10 +1,10 @@
-// The planned joint motion as a table of knots with quintic Hermite interpolation between them: C², no
+// The planned joint motion as a table of knots (owned by whoever planned it) with quintic Hermite interpolation between them: C², no
 // search, no surprise. Filled at set-up (path_planner.h); evaluation RT: safe.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "reed/core/law/surface.h"
 
@@ -20,11 +20,11 @@ class JointPath {
     Vec<N> q, q_dot, q_ddot;
   };
 
-  /// Knots at 0, h, 2h, …; at least two. Set-up only.
-  JointPath(std::vector<Knot> knots, double h_s) : knots_(std::move(knots)), h_(h_s) {}
+  /// Knots at 0, h, 2h, …; at least two. They outlive the path.
+  JointPath(std::span<const Knot> knots, double h_s) noexcept : knots_(knots), h_(h_s) {}
 
   double duration_s() const noexcept { return h_ * static_cast<double>(knots_.size() - 1); }
-  const std::vector<Knot>& knots() const noexcept { return knots_; }
+  std::span<const Knot> knots() const noexcept { return knots_; }
 
   /// At time t; before the start and after the end the arm rests at the first and last knot.
   control::Reference<N> At(double t_s) const noexcept {
@@ -60,7 +60,7 @@ class JointPath {
     out.theta_d_ddot = (2.0 * w0 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / (h_ * h_);
   }
 
-  std::vector<Knot> knots_;
+  std::span<const Knot> knots_;
   double h_;
 };
 

@@ -39,8 +39,8 @@ class Limits {
   explicit Limits(const LimitValues<N>& values) noexcept : limit_(values) {}
 
   /// Is the arm where torque may flow? Position, speed, contact force, age of the oldest joint.
-  Verdict Judge(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
-                int oldest_joint) const noexcept {
+  Verdict CheckState(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
+                     int oldest_joint) const noexcept {
     for (int i = 0; i < N; ++i) {
       if (!(theta[i] >= limit_.position_min[i] && theta[i] <= limit_.position_max[i]))
         return {Reason::kJointPosition, i, theta[i], 0};

@@ -28,7 +28,7 @@ enum class Reason : std::int32_t {
   kMissedCycles = 39,
   kBusLost = 40,
   kOperator = 41,
-  kSurplusJoint = 42,
+  kUnexpectedJoint = 42,
   kPhaseBudgetInRow = 44,
   kStaleWrench = 43,
   // limits that act
@@ -77,7 +77,7 @@ constexpr const char* Text(int code) noexcept {
       return "a drive reports a fault or a closed brake, or was not enabled in time; its state";
     case Reason::kForeignController:
       return "another controller sends on this bus";
-    case Reason::kSurplusJoint:
+    case Reason::kUnexpectedJoint:
       return "a drive answers for a joint that this arm does not have; is it the arm's configuration?";
     case Reason::kMissedCycles:
       return "too many missed cycles in a row";

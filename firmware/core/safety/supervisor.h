@@ -2,7 +2,7 @@
 // explicit: without the operator's wish the arm stays ready with its brakes closed. RT: safe.
 #pragma once
 
-#include "reed/bus/codec/messages.h"
+#include "reed/core/safety/drive_state.h"
 #include "reed/core/safety/mode_table.h"
 
 namespace reed::mode {
@@ -13,7 +13,7 @@ struct Observation {
   bool drives_ready = false;    // every drive says ready
   bool drives_enabled = false;  // every drive says enabled
   bool drives_braked = false;   // any drive says braked: commands had stopped for too long
-  bool settled = false;         // force sensor tared
+  bool tared = false;           // force sensor tared
   bool stop = false;            // end of the run, or the operator
   bool trip = false;            // a limit, or a loss
   bool reset = false;           // the operator has seen the fault
@@ -33,7 +33,7 @@ class Supervisor {
     mode_ = Next(mode_, event);
     ++cycles_in_mode_;
     if (event != Event::kNone) cycles_in_mode_ = 0;
-    if (mode_ == Mode::kReady) enabling_ = enabling_ || (start_wanted_ && seen.drives_ready && seen.settled);
+    if (mode_ == Mode::kReady) enabling_ = enabling_ || (start_wanted_ && seen.drives_ready && seen.tared);
     if (mode_ != Mode::kReady) enabling_ = false;
     cycles_enabling_ = enabling_ ? cycles_enabling_ + 1 : 0;
     if (event == Event::kStop || event == Event::kTrip) start_wanted_ = false;  // a wish counts once
@@ -46,17 +46,17 @@ class Supervisor {
   int cycles_enabling() const noexcept { return cycles_enabling_; }
   int cycles_in_mode() const noexcept { return cycles_in_mode_; }
 
-  bus::DriveRequest Request() const noexcept {
+  DriveRequest Request() const noexcept {
     switch (mode_) {
       case Mode::kReady:
-        return enabling_ ? bus::DriveRequest::kEnable : bus::DriveRequest::kReady;
+        return enabling_ ? DriveRequest::kEnable : DriveRequest::kReady;
       case Mode::kActive:
-        return bus::DriveRequest::kEnable;
+        return DriveRequest::kEnable;
       case Mode::kOff:
       case Mode::kFault:
         break;
     }
-    return bus::DriveRequest::kOff;
+    return DriveRequest::kOff;
   }
 
  private:

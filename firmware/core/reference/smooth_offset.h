@@ -10,10 +10,10 @@
 namespace reed::strategy {
 
 template <int N>
-class NodalReference {
+class SmoothOffset {
  public:
   using Vec = control::Vec<N>;
-  explicit NodalReference(double T) noexcept : T_(T) {}
+  explicit SmoothOffset(double T) noexcept : T_(T) {}
 
   void Reset() noexcept {
     x_.setZero();

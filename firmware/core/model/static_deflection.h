@@ -11,7 +11,7 @@
 namespace reed::model {
 
 template <int N>
-struct NodalCompensation {
+struct StaticDeflection {
   Vec<N> offset;           // θ_d - θ_plan
   Vec<N> spring;           // ξ, motor minus joint
   Eigen::Vector3d link_u;  // Δp, displacement of the tool point by the links
@@ -42,14 +42,14 @@ Vec<N> DampedInverse(const Mat<6, N>& J, const Eigen::Vector3d& u, double lambda
 /// Static deflection at the state of `kin` (θ_plan, or θ nearby) under the weight of `bodies` and
 /// `tip_wrench`, the environment's wrench on the tool point (force, moment about it; base axes).
 template <int N, int P>
-NodalCompensation<N> CompensateNodes(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
-                                     const Bodies<N>& bodies, const Wrench& tip_wrench) {
+StaticDeflection<N> CompensateDeflection(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
+                                         const Bodies<N>& bodies, const Wrench& tip_wrench) {
   constexpr double kDamping_m = 1e-3;  // costs 1 ppm of the correction where the arm is 1 m from singular
   StructuralLoads<N> loads;
   loads.tip = tip_wrench;
   AddBodyWeight(arm, kin, bodies, loads);
   const SerialDeflections<N> bent = DeflectSerially(arm, kin, loads);
-  NodalCompensation<N> out;
+  StaticDeflection<N> out;
   for (int i = 0; i < N; ++i) {
     out.spring(i) = SpringAngle(-bent.torque(i), arm.joint_stiffness(i), arm.joint_hardening(i));
   }

@@ -8,7 +8,8 @@
 #include "reed/config/description/scenario.h"
 #include "reed/core/reference/joint_path.h"
 #include "reed/core/reference/minimum_jerk.h"
-#include "reed/firmware/planner/inverse_kinematics.h"
+#include "reed/firmware/setup/inverse_kinematics.h"
+#include "reed/firmware/setup/planned_path.h"
 
 namespace reed::reference {
 
@@ -18,11 +19,11 @@ class PathPlanner {
   PathPlanner(PoseOf<N> pose_of, const Scenario& scenario)
       : pose_of_(std::move(pose_of)), scenario_(scenario) {}
 
-  JointPath<N> Plan() {
+  PlannedPath<N> Plan() {
     std::vector<model::Vec<N>> q = Sample();
     std::vector<typename JointPath<N>::Knot> knots = Differentiate(q);
     CheckLimits(knots);
-    return JointPath<N>(std::move(knots), kSpacing);
+    return {std::move(knots), kSpacing};
   }
 
  private:

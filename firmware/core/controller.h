@@ -1,0 +1,155 @@
+// The controller: a measurement in, a command and a decision out, once per period. Knows no file, no frame, no clock
+// and no truth. Firmware, bench, inspection, the Cortex-M7 and programs of others call this one object.
+// RT: safe, except the constructor.
+#pragma once
+
+#include "reed/core/cycle_state.h"
+#include "reed/core/events.h"
+#include "reed/core/measurement.h"
+#include "reed/core/safety/limits.h"
+#include "reed/core/safety/supervisor.h"
+#include "reed/core/safety/watch.h"
+#include "reed/core/separated.h"
+#include "reed/core/settings.h"
+
+namespace reed {
+
+/// What the drives get.
+template <int N>
+struct Command {
+  DriveRequest request = DriveRequest::kOff;
+  model::Vec<N> torque = model::Vec<N>::Zero();  // N·m
+};
+
+template <int N, int P>
+class Controller {
+ public:
+  /// path: the planned motion, over knots that outlive this object. external: the law where settings.law is kExternal.
+  Controller(const Settings<N, P>& settings, reference::JointPath<N> path,
+             const strategy::ExternalLaw* external = nullptr) noexcept
+      : settings_(settings),
+        strategy_(settings_, path, external),
+        limits_(settings_.limits),
+        supervisor_(settings_.start_wanted),
+        watch_(settings_.period_s()),
+        T_(settings_.period_s()) {}
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  /// One period: estimate, decide, control, protect.
+  const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
+    events_.Clear();
+    verdict_ =
+        watch_.CheckState(measured, state, supervisor_, limits_, source_);  // estimate what it is worth
+    Decide(measured, state);                                                // decide
+    const strategy::Decision<N>& decision = Control(measured, state);       // control
+    command_.torque = Protect(decision, measured);                          // protect: the last word
+    command_.request = supervisor_.Request();
+    NoteDecision(decision);
+    was_active_ = was_active_ || active();
+    return command_;
+  }
+
+  /// Nothing more to do: the run or the fault has been over for long enough that the drives and the record know.
+  bool finished(bool stop_wanted) const noexcept {
+    const bool fault = supervisor_.mode() == mode::Mode::kFault;
+    if (fault) return supervisor_.cycles_in_mode() >= kCyclesAfterFault;
+    return (was_active_ || stop_wanted) && !active() && supervisor_.cycles_in_mode() >= kCyclesAfterStop;
+  }
+
+  const Settings<N, P>& settings() const noexcept { return settings_; }
+  const strategy::Separated<N, P>& strategy() const noexcept { return strategy_; }
+  const strategy::Decision<N>& decision() const noexcept { return *decision_; }
+  const Command<N>& command() const noexcept { return command_; }
+  const EventList& events() const noexcept { return events_; }
+  mode::Mode mode() const noexcept { return supervisor_.mode(); }
+  std::int32_t limits() const noexcept { return verdict_.limits; }  // bit set of those that act
+  double time_s() const noexcept {
+    return active() ? T_ * supervisor_.cycles_in_mode() : 0.0;
+  }  // active since
+  protect::Reason trip() const noexcept { return trip_; }
+  TripPlace trip_place() const noexcept { return trip_place_; }
+
+ private:
+  bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
+
+  void Decide(const Measurement<N>& measured, const CycleState& state) noexcept {
+    mode::Observation seen;
+    seen.all_fresh = state.all_answered && measured.OldestAge() == 0;
+    seen.drives_ready = measured.AllDrives(DriveState::kReady);
+    seen.drives_enabled = measured.AllDrives(DriveState::kEnabled);
+    seen.drives_braked = measured.AnyDrive(DriveState::kBraked);
+    seen.tared = strategy_.tared() || measured.wrench_age == Measurement<N>::kNever;
+    // The end of a run leads through ready to off, as the operator's stop does: drives that are left in ready brake
+    // for want of commands, which looks like a fault.
+    const bool over = active() ? time_s() >= settings_.duration_s : was_active_;
+    seen.stop = state.stop_wanted || over;
+    seen.trip = verdict_.trip != protect::Reason::kNone;
+    const mode::Event event = supervisor_.Step(seen);
+    if (event != mode::Event::kNone) Note(protect::Reason::kModeChange, -1, static_cast<double>(event));
+    if (seen.trip && event == mode::Event::kTrip) NoteTrip();
+  }
+
+  const strategy::Decision<N>& Control(const Measurement<N>& measured, const CycleState& state) noexcept {
+    if (!active()) strategy_.Tare(measured);
+    if (state.gap) strategy_.NoteGap();
+    const auto workload = state.degrade ? strategy::Workload::kReduced : strategy::Workload::kFull;
+    decision_ = state.hold && active() ? &strategy_.Repeat()
+                                       : &strategy_.Step(measured, time_s(), active(), workload);
+    return *decision_;
+  }
+
+  model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
+    if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
+    const bool sound = verdict_.trip == protect::Reason::kNone;
+    const model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
+    if (sound &&
+        verdict_.trip != protect::Reason::kNone) {  // found by the gate: the law's torque is not finite
+      mode::Observation seen;
+      seen.trip = true;
+      Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)));
+      NoteTrip();
+    }
+    if (decision.force.speed_limited) verdict_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
+    return tau;
+  }
+
+  void NoteDecision(const strategy::Decision<N>& decision) noexcept {
+    if (decision.source != source_ && active()) {
+      source_ = decision.source;
+      Note(protect::Reason::kForceSourceChange, -1, static_cast<double>(source_));
+    }
+    if (decision.collision.joint >= 0)
+      Note(protect::Reason::kCollision, decision.collision.joint, decision.collision.value);
+    if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f);
+  }
+
+  void NoteTrip() noexcept {
+    trip_ = verdict_.trip;
+    trip_place_ = {verdict_.joint, verdict_.value};
+    Note(verdict_.trip, verdict_.joint, verdict_.value);
+  }
+  void Note(protect::Reason code, int joint, double value) noexcept {
+    events_.Add({code, joint, value, supervisor_.mode(), source_});
+  }
+
+  static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
+  static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
+
+  const Settings<N, P> settings_;
+  strategy::Separated<N, P> strategy_;
+  protect::Limits<N> limits_;
+  mode::Supervisor supervisor_;
+  protect::Watch<N> watch_;
+  double T_;
+  const strategy::Decision<N>* decision_ = nullptr;
+  protect::Verdict verdict_;
+  Command<N> command_;
+  EventList events_;
+  strategy::ForceSource source_ = strategy::ForceSource::kNone;
+  protect::Reason trip_ = protect::Reason::kNone;
+  TripPlace trip_place_;
+  bool was_active_ = false;
+};
+
+}  // namespace reed

@@ -1,0 +1,75 @@
+// Is the arm where torque may flow? Everything but the arm's own limits (limits.h): who sends, who answers, which
+// drives are enabled, how late the controller is. RT: safe.
+#pragma once
+
+#include "reed/core/contact/force_source.h"
+#include "reed/core/cycle_state.h"
+#include "reed/core/measurement.h"
+#include "reed/core/safety/limits.h"
+#include "reed/core/safety/supervisor.h"
+
+namespace reed::protect {
+
+template <int N>
+class Watch {
+ public:
+  explicit Watch(double T) noexcept : T_(T) {}
+
+  /// Trips are looked for only while torque may flow: a still arm behind closed brakes is safe. source: of the last
+  /// cycle.
+  Verdict CheckState(const Measurement<N>& measured, const CycleState& state,
+                     const mode::Supervisor& supervisor, const Limits<N>& limits,
+                     strategy::ForceSource source) noexcept {
+    const bool active = supervisor.mode() == mode::Mode::kActive;
+    CountIncomplete(measured, supervisor);
+    if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
+    if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
+    if (cycles_incomplete_ * T_ > kPatience_s) return Stale(measured);
+    if (supervisor.Request() != DriveRequest::kEnable) return {};
+    if (active && state.missed_in_row_exceeded && !state.host_paused)
+      return {Reason::kMissedCycles, -1, static_cast<double>(state.missed_in_row), 0};
+    if (active && state.phase_budget_exceeded)
+      return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(state.broken_in_row), 0};
+    for (int i = 0; i < N; ++i) {
+      const DriveState drive = measured.drive[static_cast<std::size_t>(i)];
+      if (!DriveStateAllowed(drive, supervisor))
+        return {Reason::kDriveFault, i, static_cast<double>(drive), 0};
+    }
+    const bool wrench_fresh = !limits.TooOld(measured.wrench_age);
+    // A law that tracks the measured force presses blindly without it; one that can do without says so by its source.
+    if (active && source == strategy::ForceSource::kKnown && !wrench_fresh)
+      return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
+    const double force = wrench_fresh ? measured.force.norm() : 0.0;
+    return limits.CheckState(measured.theta, measured.theta_dot, force, measured.OldestAge(),
+                             measured.OldestJoint());
+  }
+
+ private:
+  static Verdict Stale(const Measurement<N>& measured) noexcept {
+    return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()), 0};
+  }
+
+  /// An arm that shall start and of which some joints have never been heard will not start by waiting.
+  void CountIncomplete(const Measurement<N>& measured, const mode::Supervisor& supervisor) noexcept {
+    const bool waits = supervisor.mode() == mode::Mode::kOff && supervisor.start_wanted();
+    const bool incomplete =
+        measured.OldestAge() == Measurement<N>::kNever && measured.YoungestAge() < Measurement<N>::kNever;
+    cycles_incomplete_ = waits && incomplete ? cycles_incomplete_ + 1 : 0;
+  }
+
+  /// Of a drive that is asked to be enabled. The others already have torque while one of them takes its time; one
+  /// that has braked asks for a new start (supervisor.h).
+  bool DriveStateAllowed(DriveState drive, const mode::Supervisor& supervisor) const noexcept {
+    if (supervisor.mode() == mode::Mode::kActive || supervisor.cycles_enabling() * T_ > kTimeToEnable_s)
+      return drive == DriveState::kEnabled;
+    return drive != DriveState::kFault;
+  }
+
+  static constexpr double kPatience_s = 2.0;
+  static constexpr double kTimeToEnable_s = 1.0;  // a brake takes some 0.1 s to open
+
+  double T_;
+  int cycles_incomplete_ = 0;  // off, although an arm is heard
+};
+
+}  // namespace reed::protect

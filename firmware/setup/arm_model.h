@@ -1,0 +1,164 @@
+// The arm's description -> the constants that the recursions want. Set-up only: throws std::invalid_argument.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "reed/config/description/arm_description.h"
+#include "reed/core/model/arm_model.h"
+
+namespace reed::model {
+
+namespace internal {
+
+/// Per-joint list of the description as a vector; `absent` where the file did not say.
+template <int N>
+Vec<N> PerJoint(const std::vector<double>& list, double absent, const char* name) {
+  if (list.empty()) return Vec<N>::Constant(absent);
+  if (static_cast<int>(list.size()) != N) {
+    throw std::invalid_argument(std::string(name) + ": " + std::to_string(list.size()) + " entries for " +
+                                std::to_string(N) + " joints");
+  }
+  return Eigen::Map<const Vec<N>>(list.data());
+}
+
+inline MassMoments Moments(const InertialBody& body) {
+  return MassMoments(body.mass_kg, body.com_m, body.inertia_com_kgm2);
+}
+
+/// What remains of a body after its parameters were taken out; rounding residue of the subtraction counts as
+/// nothing.
+inline MassMoments WithoutResidue(MassMoments rest, const MassMoments& total) {
+  constexpr double kResidue = 1e-13;
+  if (std::abs(rest.m) <= kResidue * std::abs(total.m)) rest.m = 0.0;
+  if (rest.h.norm() <= kResidue * (total.h.norm() + std::abs(total.m))) rest.h.setZero();
+  if (rest.J.norm() <= kResidue * (total.J.norm() + std::abs(total.m))) rest.J.setZero();
+  return rest;
+}
+
+template <int N, int P>
+void ReadParameters(const ArmDescription& arm, ArmModel<N, P>& out) {
+  out.num_parameters = arm.num_parameters();
+  if (out.num_parameters > P) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(out.num_parameters) +
+                                " parameters, the model is built for at most " + std::to_string(P));
+  }
+  out.viscous.setZero();
+  out.p_true.setZero();
+  out.p_nominal.setZero();
+  out.p_lo.setZero();
+  out.p_hi.setZero();
+  for (int k = 0; k < out.num_parameters; ++k) {
+    const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
+    out.p_true(k) = parameter.truth;
+    out.p_nominal(k) = parameter.nominal;
+    out.p_lo(k) = parameter.lo;
+    out.p_hi(k) = parameter.hi;
+    out.viscous.col(k) = PerJoint<N>(parameter.viscous_weights, 0.0, "viscous weights");
+  }
+}
+
+/// Known part of a body = its total minus truth times unit of every parameter.
+template <int N, int P>
+void ReadBodies(const ArmDescription& arm, ArmModel<N, P>& out) {
+  if (static_cast<int>(arm.bodies.size()) != N) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.bodies.size()) + " bodies for " +
+                                std::to_string(N) + " joints");
+  }
+  int count = 0;
+  for (int b = 0; b < N; ++b) {
+    out.first_shape[b] = count;
+    const MassMoments total = Moments(arm.bodies[static_cast<std::size_t>(b)]);
+    MassMoments known = total;
+    for (int k = 0; k < out.num_parameters; ++k) {
+      const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
+      MassMoments unit;
+      for (const ParameterShape& part : parameter.shapes) {
+        if (part.body == b) unit.Add(1.0, Moments(part.unit));
+      }
+      if (unit.IsZero()) continue;
+      out.shape[count++] = {k, unit};
+      known.Add(-parameter.truth, unit);
+    }
+    known = WithoutResidue(known, total);
+    if (!known.IsZero()) out.shape[count++] = {P, known};
+  }
+  out.first_shape[N] = count;
+}
+
+template <int N, int P>
+void AddMember(const ArmDescription& arm, Member beam, ArmModel<N, P>& out) {
+  const int j = out.num_members++;
+  if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
+  const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
+  beam.length = std::abs(beam.end_at - beam.start_at);
+  if (std::abs(section.length_m - beam.length) > 1e-6) {
+    throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
+                                std::to_string(section.length_m) + " m long, its DH entry " +
+                                std::to_string(beam.length) + " m");
+  }
+  beam.EA = section.EA_N;
+  beam.EI = section.EI_Nm2;
+  beam.GJ = section.GJ_Nm2;
+  beam.rhoA = section.rhoA_kgpm;
+  out.member[j] = beam;
+  int& longest = out.carrier[beam.link];
+  if (longest < 0 || beam.length > out.member[longest].length) longest = j;
+}
+
+/// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
+/// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
+template <int N, int P>
+void ReadMembers(const ArmDescription& arm, ArmModel<N, P>& out) {
+  out.num_members = 0;
+  for (int i = 0; i < N; ++i) {
+    out.carrier[i] = -1;
+    if (arm.sections.empty()) continue;
+    if (out.d(i) != 0.0) AddMember(arm, {i, 2, -out.d(i), 0.0}, out);
+    if (i + 1 < N && out.a(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, out.a(i + 1)}, out);
+  }
+  if (static_cast<int>(arm.sections.size()) != out.num_members) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.sections.size()) + " sections for " +
+                                std::to_string(out.num_members) + " members (non-zero d and a)");
+  }
+}
+
+}  // namespace internal
+
+/// Where the description does not say: no rotor inertia, no hardening, everything else infinite.
+/// Throws std::invalid_argument with one line for an arm of other sizes.
+template <int N, int P>
+ArmModel<N, P> ArmModelFrom(const ArmDescription& arm) {
+  if (arm.dof() != N) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.dof()) +
+                                " joints, the model is built for " + std::to_string(N));
+  }
+  ArmModel<N, P> out;
+  out.gravity = arm.gravity_mps2;
+  out.tool_offset = arm.tool_offset_m;
+  for (int i = 0; i < N; ++i) {
+    const DhRow& row = arm.dh[static_cast<std::size_t>(i)];
+    out.cos_alpha(i) = std::cos(row.alpha_rad);
+    out.sin_alpha(i) = std::sin(row.alpha_rad);
+    out.a(i) = row.a_m;
+    out.d(i) = row.d_m;
+  }
+  using internal::PerJoint;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  out.rotor_inertia = PerJoint<N>(arm.rotor_inertia_kgm2, 0.0, "rotor inertia");
+  out.joint_stiffness = PerJoint<N>(arm.joint_stiffness_Nmprad, kInfinity, "joint stiffness");
+  out.joint_hardening = PerJoint<N>(arm.joint_hardening_Nmprad3, 0.0, "joint hardening");
+  out.torque_limit = PerJoint<N>(arm.torque_limit_Nm, kInfinity, "torque limit");
+  out.position_min = PerJoint<N>(arm.position_min_rad, -kInfinity, "lower position limit");
+  out.position_max = PerJoint<N>(arm.position_max_rad, kInfinity, "upper position limit");
+  out.speed_limit = PerJoint<N>(arm.speed_limit_radps, kInfinity, "speed limit");
+  internal::ReadParameters(arm, out);
+  internal::ReadBodies(arm, out);
+  internal::ReadMembers(arm, out);
+  return out;
+}
+
+}  // namespace reed::model

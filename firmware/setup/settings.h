@@ -1,0 +1,96 @@
+// A scenario -> what the controller may know of it. RT: set-up only: throws std::runtime_error with one line.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "reed/config/description/scenario.h"
+#include "reed/core/model/kinematics.h"
+#include "reed/core/settings.h"
+#include "reed/firmware/setup/arm_model.h"
+#include "reed/firmware/setup/gains.h"
+#include "reed/firmware/setup/path_planner.h"
+
+namespace reed {
+
+namespace internal {
+
+inline strategy::LawId LawIdOf(const std::string& name) {
+  const auto& names = strategy::kLawNames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw std::runtime_error("control.law: \"" + name + "\" is no law");
+  return static_cast<strategy::LawId>(found - names.begin());
+}
+
+inline strategy::ForceModeConfig ForceModeFrom(const ForceConfig& force, const ControlConfig& control) {
+  return {{control.k_p, control.k_i, control.a_force},
+          force.contact_threshold_N,
+          force.approach_speed_mps,
+          control.normal_speed_limit_mps,
+          control.estimate_wall_stiffness,
+          control.force_bandwidth_radps};
+}
+
+inline strategy::SourceSetting SourceFrom(ForceConfig::Source source) {
+  switch (source) {
+    case ForceConfig::Source::kKnown:
+      return strategy::SourceSetting::kKnown;
+    case ForceConfig::Source::kUnknown:
+      return strategy::SourceSetting::kUnknown;
+    case ForceConfig::Source::kAuto:
+      return strategy::SourceSetting::kAuto;
+    case ForceConfig::Source::kNone:
+      break;
+  }
+  return strategy::SourceSetting::kNone;
+}
+
+template <int N, int P>
+protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
+  protect::LimitValues<N> v;
+  v.torque = scenario.limits.torque_scale * arm.torque_limit;
+  v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;
+  v.position_min = arm.position_min.array() + scenario.limits.position_margin_rad / 2.0;
+  v.position_max = arm.position_max.array() - scenario.limits.position_margin_rad / 2.0;
+  v.speed = scenario.limits.speed_scale * arm.speed_limit;
+  v.contact_force = scenario.limits.contact_force_N;
+  v.hold_age = scenario.limits.hold_age_cycles;
+  v.stop_age = scenario.limits.stop_age_cycles;
+  return v;
+}
+
+}  // namespace internal
+
+template <int N, int P>
+Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
+  Settings<N, P> s;
+  s.arm = model::ArmModelFrom<N, P>(scenario.arm);
+  s.law = internal::LawIdOf(scenario.control.law);
+  s.gains = strategy::GainsFrom<N, P>(scenario.control, scenario.arm, s.arm, s.law);
+  s.force_mode = internal::ForceModeFrom(scenario.force, scenario.control);
+  s.force = {scenario.force.desired_N, scenario.force.start_s, scenario.force.ramp_s, scenario.force.end_s};
+  s.source = internal::SourceFrom(scenario.force.source);
+  s.normal = scenario.wall.normal;
+  s.wall_present = scenario.wall.present;
+  s.compensate_deflection = scenario.control.nodal_compensation;
+  s.velocity_filter_hz = scenario.sensors.velocity_filter_hz;
+  s.limits = internal::LimitsFrom(scenario, s.arm);
+  s.rate_hz = scenario.timing.rate_hz;
+  s.duration_s = scenario.duration_s;
+  s.start_wanted = start_wanted;
+  return s;
+}
+
+/// The scenario's legs as knots. Throws std::runtime_error with one line for what the arm cannot follow.
+template <int N, int P>
+reference::PlannedPath<N> PathFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
+  const auto pose_of = [&arm](const model::Vec<N>& q) {
+    model::Kinematics<N> kin;
+    model::ForwardKinematics<N, P>(arm, q, model::Vec<N>::Zero(), kin);
+    return kin;
+  };
+  return reference::PathPlanner<N>(pose_of, scenario).Plan();
+}
+
+}  // namespace reed
