@@ -2,13 +2,14 @@
 #include "reed/bench/inputs.h"
 #include "reed/config/schema/arm_file.h"
 #include "reed/core/model/regressor.h"
+#include "reed/firmware/setup/arm_model.h"
 
 namespace reed::bench {
 namespace {
 
 template <int N, int P>
 void Run(const Stopwatch& watch, const char* arm_name) {
-  const model::ArmModel<N, P> arm(LoadArm(arm_name));
+  const model::ArmModel<N, P> arm = model::ArmModelFrom<N, P>(LoadArm(arm_name));
   const Inputs<N> inputs;
   model::Kinematics<N> kin;
   model::Regressor<N, P> regressor;

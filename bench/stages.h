@@ -3,8 +3,11 @@
 #pragma once
 
 #include "reed/bench/inputs.h"
+#include "reed/core/contact/force_loop.h"
+#include "reed/core/estimate/observer.h"
 #include "reed/core/law/law_bank.h"
-#include "reed/core/separated.h"
+#include "reed/core/model/static_deflection.h"
+#include "reed/firmware/setup/settings.h"
 
 namespace reed::bench {
 
@@ -12,9 +15,9 @@ template <int N, int P>
 class Stages {
  public:
   explicit Stages(const Scenario& scenario)
-      : arm_(scenario.arm),
-        gains_(scenario, arm_),
-        law_(strategy::LawBank<N, P>::Find("separated")),
+      : arm_(model::ArmModelFrom<N, P>(scenario.arm)),
+        gains_(strategy::GainsFrom<N, P>(scenario.control, scenario.arm, arm_, strategy::LawId::kSeparated)),
+        law_(strategy::LawBank<N, P>::Get(strategy::LawId::kSeparated)),
         adaptive_(gains_),
         observer_(gains_.K_o, kPeriod),
         bodies_(model::BodiesFor<N, P>(arm_, gains_.p_0)) {
@@ -57,7 +60,21 @@ class Stages {
     control::ReplaceNormal<N>(normal, 1e-3, 0.0, aux);
     const model::Vec<N> s = control::SlidingError<N>(aux.v, in.qd), JtF_d = 10.0 * normal.J_n.transpose(),
                         none = model::Vec<N>::Zero();
-    const strategy::LawInput<N, P> input{gains_, arm_, aux, s, state(k).regressor, JtF_d, none, kPeriod};
+    const strategy::LawInput<N, P> input{gains_,
+                                         arm_,
+                                         aux,
+                                         s,
+                                         state(k).regressor,
+                                         JtF_d,
+                                         none,
+                                         kPeriod,
+                                         0.0,
+                                         wanted,
+                                         10.0,
+                                         measured_,
+                                         strategy::ForceSource::kKnown,
+                                         true,
+                                         nullptr};
     Keep(law_.known(input, adaptive_));
     law_.learn_known(input, adaptive_);
   }
@@ -87,6 +104,7 @@ class Stages {
   std::vector<State> states_;
   model::Kinematics<N> kin_;
   model::Regressor<N, P> regressor_;
+  Measurement<N> measured_;
 };
 
 }  // namespace reed::bench

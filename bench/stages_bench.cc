@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   const reed::Scenario scenario = reed::LoadScenario("press_known");
   reed::bench::Stages<5, 7> stages(scenario);
   watch.Measure("kinematics", [&](int k) { stages.Kinematics(k); });
-  watch.Measure("nodal_compensation", [&](int k) { stages.StaticDeflection(k); });
+  watch.Measure("static_deflection", [&](int k) { stages.StaticDeflection(k); });
   watch.Measure("regressor", [&](int k) { stages.Regressor(k); });
   watch.Measure("law", [&](int k) { stages.Law(k); });
   watch.Measure("observer", [&](int k) { stages.Observer(k); });

@@ -35,8 +35,8 @@ void Record(ControlStep<5, 7>& step, const std::array<bus::Frame, kFrames>& fram
   snapshot.dof = 5;
   snapshot.num_parameters = 6;
   telemetry::FillMeasured(step.measured(k), snapshot.measured);
-  telemetry::FillControl(step.decision(), step.strategy(), snapshot.control);
-  telemetry::FillAdaptation(step.strategy().adaptive(), snapshot.adaptation);
+  telemetry::FillControl(step.controller(), snapshot.control);
+  telemetry::FillAdaptation(step.controller().strategy().adaptive(), snapshot.adaptation);
   telemetry::FillBus({}, {}, 0, snapshot.bus);
   telemetry::Fill(snapshot.control.tau, step.decision().tau_law);
 }

@@ -25,7 +25,7 @@ using VecP = model::Vec<P>;
 using MatN = model::Mat<N, N>;
 
 const Arm& A5() {
-  static const Arm arm(test::ArmA5());
+  static const Arm arm = model::ArmModelFrom<N, P>(test::ArmA5());
   return arm;
 }
 

@@ -1,9 +1,8 @@
-"""The control core on a Cortex-M7 under qemu: the host's numbers, the reference's numbers, and nothing but arithmetic inside."""
+"""The controller on a Cortex-M7 under qemu: over recorded closed loops the firmware's torques, and nothing but arithmetic inside."""
 
-import json
-import math
 import tomllib
 
+import numpy as np
 import pytest
 
 from reed_tools.bench import embedded
@@ -14,10 +13,9 @@ if embedded.missing():
 
 BUDGET = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["cortex_m7"]
 MARGIN = 1.05
-N, P = 5, 6
-# Where a result's fields start; embedded/core.h.
-J, V, S, Y, U_KNOWN, U_UNKNOWN, P_RATE, ETA_RATE = 0, 30, 35, 40, 70, 75, 80, 86
-TORQUE = 114
+N = embedded.JOINTS
+ACTIVE, KNOWN, OBSERVER = 2, 1, 3
+LOOPS = list(embedded.RUNS)
 
 
 @pytest.fixture(scope="module")
@@ -25,45 +23,42 @@ def proof(tmp_path_factory):
     return embedded.prove(tmp_path_factory.mktemp("embedded"))
 
 
-@pytest.fixture(scope="module")
-def cases():
-    return json.loads(embedded.CASES.read_text())["cases"]
-
-
 def test_the_target_has_no_heap_no_exceptions_no_rtti_and_no_locks(proof):
     assert proof.symbols == []
 
 
-def test_the_target_computes_what_the_host_computes(proof, cases):
-    """Not bit-equal: the Cortex-M7 fuses multiply-add and has its own sin and cos; measured 1e-12 relative to the largest number."""
-    assert len(proof.target) == len(proof.host) == len(cases)
-    for target, host in zip(proof.target, proof.host):
-        scale = max(map(abs, host))
-        assert max(abs(a - b) for a, b in zip(target, host)) < 1e-12 * scale
+@pytest.mark.parametrize("scenario", LOOPS)
+def test_the_recorded_loop_is_one_worth_replaying(proof, scenario):
+    loop = proof.loops[scenario]
+    assert len(loop.recorded) == embedded.RUNS[scenario] and np.sum(loop.modes == ACTIVE) >= 500
+    assert KNOWN in loop.sources and (scenario != "press_sensor_loss" or OBSERVER in loop.sources)
 
 
-def test_the_target_agrees_with_the_reference(proof, cases):
-    for row, case in zip(proof.target, cases):
-        close(row[J:J + 6 * N], [case["J_world"][i][j] for j in range(N) for i in range(6)])
-        close(row[V:V + N], case["v"])
-        close(row[S:S + N], case["s"])
-        close(row[Y:Y + P * N], [case["Y"][i][k] for k in range(P) for i in range(N)])
-        close(row[U_KNOWN:U_KNOWN + N], case["U_known"])
-        close(row[U_UNKNOWN:U_UNKNOWN + N], case["U_unknown"])
-        close(row[P_RATE:P_RATE + P], case["pdot_known_Gamma1"])
-        close(row[ETA_RATE:ETA_RATE + P], case["etadot_Gamma1"])
+@pytest.mark.parametrize("scenario", LOOPS)
+def test_the_host_commands_what_the_firmware_commanded(proof, scenario):
+    loop = proof.loops[scenario]
+    assert loop.host.shape == (len(loop.recorded), 2 * N)
+    assert np.array_equal(loop.host[:, :N], loop.recorded)
 
 
-def test_the_command_frame_carries_the_laws_torque(proof, cases):
-    for row, case in zip(proof.target, cases):
-        for sent, wanted in zip(row[TORQUE:TORQUE + N], case["U_known"]):
-            assert math.isclose(sent, wanted, rel_tol=1e-6, abs_tol=1e-6)
+@pytest.mark.parametrize("scenario", LOOPS)
+def test_the_target_commands_what_the_host_commands(proof, scenario):
+    """Not bit-equal: the Cortex-M7 fuses multiply-add and has its own sin and cos."""
+    loop = proof.loops[scenario]
+    assert loop.target.shape == loop.host.shape
+    close(loop.target[:, :N], loop.host[:, :N], 1e-9)
 
 
-@pytest.mark.parametrize("figure", ["instructions", "stack_bytes", "flash_bytes", "ram_bytes"])
+@pytest.mark.parametrize("scenario", LOOPS)
+def test_the_command_frame_carries_the_torque(proof, scenario):
+    loop = proof.loops[scenario]
+    assert np.abs(loop.target[:, N:] - loop.target[:, :N]).max() < 1e-4
+
+
+@pytest.mark.parametrize("figure", ["instructions", "instructions_median", "stack_bytes", "flash_bytes", "ram_bytes"])
 def test_the_target_stays_within_its_budget(proof, figure):
     assert 0 < getattr(proof, figure) <= BUDGET[figure] * MARGIN
 
 
-def close(got, wanted):
-    assert max(abs(a - b) for a, b in zip(got, wanted, strict=True)) < 1e-9
+def close(got, wanted, share):
+    assert np.abs(got - wanted).max() < share * np.abs(wanted).max()

@@ -141,7 +141,7 @@ TEST(Cycle, ADriveOfAJointThatTheArmDoesNotHaveIsAFault) {
     bus::Encoder sixth;
     rig.injected = sixth.JointState(5, {});
     rig.Run();
-    ExpectFault(rig, Reason::kSurplusJoint);
+    ExpectFault(rig, Reason::kUnexpectedJoint);
     EXPECT_EQ(rig.trip_place().joint, 5);
   }
 }

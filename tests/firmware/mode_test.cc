@@ -106,11 +106,11 @@ TEST(Supervisor, AGapInTheMeasurementsStartsTheCountOfFreshCyclesAgain) {
 
 TEST(Supervisor, BrakesStayClosedUntilTheForceSensorIsSettled) {
   Walk walk(true);
-  walk.seen.settled = false;
+  walk.seen.tared = false;
   walk.Cycles(500);
   EXPECT_EQ(walk.supervisor.mode(), kR);
   EXPECT_EQ(walk.supervisor.Request(), DriveRequest::kReady);
-  walk.seen.settled = true;
+  walk.seen.tared = true;
   walk.Cycles(2);
   EXPECT_EQ(walk.supervisor.mode(), kA);
 }

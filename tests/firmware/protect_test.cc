@@ -46,7 +46,7 @@ struct Gate {
   bool Acts(Reason reason) const { return (verdict.limits & LimitBit(reason)) != 0; }
   Verdict Judge(double q_1, double q_2, double qd_1 = 0.0, double qd_2 = 0.0, double force = 0.0,
                 int age = 0) const {
-    return limits.Judge(Vec2(q_1, q_2), Vec2(qd_1, qd_2), force, age, 1);
+    return limits.CheckState(Vec2(q_1, q_2), Vec2(qd_1, qd_2), force, age, 1);
   }
 };
 
@@ -123,9 +123,9 @@ TEST(Protect, BeyondTheStopAgeTheTorqueFallsInEqualStepsToZeroAtTwiceTheStopAge)
     const double left = (2.0 * kStop - age) / kStop;
     EXPECT_LT((gate.Apply(33.0, 33.0, age) - left * Vec2(20.0, -4.0)).norm(), 1e-12) << "age " << age;
     EXPECT_TRUE(gate.Acts(Reason::kRampDown));
-    EXPECT_EQ(gate.Judge(0, 0, 0, 0, 0, age).trip, Reason::kNone);
+    EXPECT_EQ(gate.CheckState(0, 0, 0, 0, 0, age).trip, Reason::kNone);
   }
-  const Verdict verdict = gate.Judge(0, 0, 0, 0, 0, 2 * kStop + 1);
+  const Verdict verdict = gate.CheckState(0, 0, 0, 0, 0, 2 * kStop + 1);
   EXPECT_EQ(verdict.trip, Reason::kStaleMeasurement);
   EXPECT_EQ(verdict.joint, 1);
   EXPECT_EQ(verdict.value, 2 * kStop + 1);
@@ -140,36 +140,36 @@ TEST(Protect, FreshMeasurementsEndHoldAndRampAtTheTorqueRate) {
 
 TEST(Protect, EveryJointTripsAtBothEndsOfItsOwnRange) {
   const Gate gate;
-  EXPECT_EQ(gate.Judge(1.5, 2.5).trip, Reason::kNone);
-  EXPECT_EQ(gate.Judge(-1.0, -2.0).trip, Reason::kNone);
+  EXPECT_EQ(gate.CheckState(1.5, 2.5).trip, Reason::kNone);
+  EXPECT_EQ(gate.CheckState(-1.0, -2.0).trip, Reason::kNone);
   const struct {
     double q_1, q_2;
     int joint;
   } outside[] = {{1.5001, 0, 0},  {-1.0001, 0, 0}, {0, 2.5001, 1},
                  {0, -2.0001, 1}, {kNaN, 0, 0},    {0, kNaN, 1}};
   for (const auto& at : outside) {
-    const Verdict verdict = gate.Judge(at.q_1, at.q_2);
+    const Verdict verdict = gate.CheckState(at.q_1, at.q_2);
     EXPECT_EQ(verdict.trip, Reason::kJointPosition);
     EXPECT_EQ(verdict.joint, at.joint);
   }
-  EXPECT_EQ(gate.Judge(1.6, 0).value, 1.6);
+  EXPECT_EQ(gate.CheckState(1.6, 0).value, 1.6);
 }
 
 TEST(Protect, EveryJointTripsAtItsOwnSpeedInBothDirections) {
   const Gate gate;
-  EXPECT_EQ(gate.Judge(0, 0, 3.0, -4.0).trip, Reason::kNone);
+  EXPECT_EQ(gate.CheckState(0, 0, 3.0, -4.0).trip, Reason::kNone);
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(gate.Judge(0, 0, 3.001 * sign, 0).trip, Reason::kJointSpeed);
-    EXPECT_EQ(gate.Judge(0, 0, 0, 4.001 * sign).joint, 1);
+    EXPECT_EQ(gate.CheckState(0, 0, 3.001 * sign, 0).trip, Reason::kJointSpeed);
+    EXPECT_EQ(gate.CheckState(0, 0, 0, 4.001 * sign).joint, 1);
   }
-  EXPECT_EQ(gate.Judge(0, 0, kNaN, 0).trip, Reason::kJointSpeed);
+  EXPECT_EQ(gate.CheckState(0, 0, kNaN, 0).trip, Reason::kJointSpeed);
 }
 
 TEST(Protect, TheContactForceTripsAboveItsLimitAndWhenItIsNoNumber) {
   const Gate gate;
-  EXPECT_EQ(gate.Judge(0, 0, 0, 0, 60.0).trip, Reason::kNone);
-  EXPECT_EQ(gate.Judge(0, 0, 0, 0, 60.1).trip, Reason::kContactForce);
-  EXPECT_EQ(gate.Judge(0, 0, 0, 0, kNaN).trip, Reason::kContactForce);
+  EXPECT_EQ(gate.CheckState(0, 0, 0, 0, 60.0).trip, Reason::kNone);
+  EXPECT_EQ(gate.CheckState(0, 0, 0, 0, 60.1).trip, Reason::kContactForce);
+  EXPECT_EQ(gate.CheckState(0, 0, 0, 0, kNaN).trip, Reason::kContactForce);
 }
 
 // Logs outlive versions: these numbers are promises.
@@ -186,7 +186,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kStaleMeasurement, 36},
                                             {Reason::kDriveFault, 37},
                                             {Reason::kForeignController, 38},
-                                            {Reason::kSurplusJoint, 42},
+                                            {Reason::kUnexpectedJoint, 42},
                                             {Reason::kMissedCycles, 39},
                                             {Reason::kBusLost, 40},
                                             {Reason::kOperator, 41},

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/stiffness/finite_matrix_arm.h"
 #include "reed/tests/model/states.h"
 
@@ -42,21 +43,21 @@ void ExpectAgreement(const ArmModel<N, P>& arm, JointModel joints, test::Draw& d
 }
 
 TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnA5) {
-  const ArmModel<5, 6> arm(test::ArmA5());
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
   test::Draw draw(21);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }
 
 TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnASkewArm) {
-  const ArmModel<6, 4> arm(test::SkewArm());
+  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
   test::Draw draw(22);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }
 
 TEST(SerialCompliance, MatricesAreTheTipsAnswerToUnitWrenches) {
-  const ArmModel<5, 6> arm(test::ArmA5());
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
   test::Draw draw(23);
   for (int n = 0; n < 20; ++n) {
     Kinematics<5> kin;
@@ -79,7 +80,7 @@ TEST(SerialCompliance, AStraightArmIsOneCantilever) {
   description.dh[0].d_m = 0.0;
   description.dh[4].d_m = 0.0;
   description.sections = {description.sections[1], description.sections[2]};
-  const ArmModel<5, 6> arm(description);
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(description);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>::Zero(), Vec<5>::Zero(), kin);
   const Mat6 C = LinkCompliance(arm, kin);
@@ -94,7 +95,7 @@ TEST(SerialCompliance, AStraightArmIsOneCantilever) {
 TEST(SerialCompliance, AnArmWithoutSectionsBendsOnlyInItsJoints) {
   ArmDescription description = test::ArmA5();
   description.sections.clear();
-  const ArmModel<5, 6> arm(description);
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(description);
   test::Draw draw(24);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, draw.Vector<5>(3.0), Vec<5>::Zero(), kin);

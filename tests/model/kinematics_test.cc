@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/tests/model/states.h"
 
 namespace reed::model {
@@ -89,7 +90,7 @@ TEST(EulerAngles, RebuildTheRotationTheyCameFrom) {  // (2)
 }
 
 TEST(Pose, FiveJointsReachOnlyFiveOfSixDirections) {  // (3)
-  const ArmModel<5, 6> arm(test::ArmA5());
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.3, 0.7, -1.1, 0.4, 0.2), Vec<5>::Zero(), kin);
   EXPECT_LT((kin.J * kin.J.transpose()).determinant(), 1e-18);

@@ -3,6 +3,7 @@
 
 #include "reed/core/model/regressor.h"
 #include "reed/core/model/static_deflection.h"
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/tests/model/states.h"
 #include "reed/tests/support/no_alloc.h"
 
@@ -10,7 +11,7 @@ namespace reed::model {
 namespace {
 
 TEST(Model, OneCycleTouchesNoHeap) {
-  const ArmModel<5, 6> arm(test::ArmA5());
+  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
   test::Draw draw(41);
   Kinematics<5> kin;
   Regressor<5, 6> regressor;

@@ -14,7 +14,7 @@ using model::Vec;
 
 class AgreementTest : public testing::TestWithParam<std::vector<double>> {
  protected:
-  AgreementTest() : arm_(test::ArmA5()), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
+  AgreementTest() : arm_(ArmModelFrom<5, 6>(test::ArmA5())), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
     model::ForwardKinematics<5>(arm_, q_, Vec<5>::Zero(), kin_);
   }
 

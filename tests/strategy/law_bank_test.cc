@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/firmware/setup/settings.h"
 #include "reed/tests/support/arms.h"
 
 namespace reed::strategy {
@@ -14,7 +15,7 @@ using VecP = model::Vec<P>;
 
 class LawBankTest : public testing::Test {
  protected:
-  LawBankTest() : arm(test::ArmA5()) {
+  LawBankTest() : arm(model::ArmModelFrom<N, P>(test::ArmA5())) {
     scenario.arm = test::ArmA5();
     scenario.control.K_d = {45.0, 41.0, 24.0, 7.5, 4.2};
     scenario.control.Lambda = {20.0, 20.0, 20.0, 20.0, 20.0};
@@ -35,10 +36,13 @@ class LawBankTest : public testing::Test {
     AdaptiveState<N, P> after_known, after_unknown;
   };
   Outcome Try(const std::string& name) {
-    scenario.control.law = name;
-    const Gains<N, P> gains(scenario, arm);
-    const auto& law = LawBank<N, P>::Find(name);
-    const LawInput<N, P> in{gains, arm, aux, s, regressor, JtF_d, r, 1e-3};
+    const LawId id = reed::internal::LawIdOf(name);
+    const Gains<N, P> gains = GainsFrom<N, P>(scenario.control, scenario.arm, arm, id);
+    const auto& law = LawBank<N, P>::Get(id);
+    const control::Reference<N> desired;
+    const Measurement<N> measured;
+    const LawInput<N, P> in{gains, arm,     aux, s,        regressor,           JtF_d, r,      1e-3,
+                            0.0,   desired, 0.0, measured, ForceSource::kKnown, true,  nullptr};
     Outcome out{VecN::Zero(), VecN::Zero(), AdaptiveState<N, P>(gains), AdaptiveState<N, P>(gains)};
     out.known = law.known(in, out.after_known);
     out.unknown = law.unknown(in, out.after_unknown);

@@ -2,6 +2,7 @@
 // which instantiate it, so that the recursions are compiled once per number of joints. RT: set-up only.
 #pragma once
 
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/inspect/arm_inspector.h"
 #include "reed/inspect/control_cases.h"
 #include "reed/inspect/elastic_cases.h"
@@ -12,7 +13,8 @@ namespace reed::inspect {
 template <int N>
 class ArmInspectorFor final : public ArmInspector {
  public:
-  explicit ArmInspectorFor(const ArmDescription& description) : arm_(description) {}
+  explicit ArmInspectorFor(const ArmDescription& description)
+      : arm_(model::ArmModelFrom<N, kMaxParameters>(description)) {}
 
   NamedValues Inspect(const NamedValues& in) const override {
     NamedValues out;

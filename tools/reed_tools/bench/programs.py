@@ -76,10 +76,11 @@ class Flight:
         return int(self.text.split("done: ")[1].split()[0])
 
 
-def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, ...] = (), plant: list[str] | None = None) -> Flight:
-    """press_known by hand: no report, no LCM network, the telemetry log of the firmware in `folder`. `under`: what the firmware
+def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, ...] = (), plant: list[str] | None = None,
+        scenario: str = "press_known") -> Flight:
+    """The scenario by hand: no report, no LCM network, the telemetry log of the firmware in `folder`. `under`: what the firmware
     runs under; `plant`: another program at its other end."""
-    common = ["--config", "press_known", "--bus", f"udp:{BUS_GROUP}:{port}", "--clock", clock, "--no-lcm"]
+    common = ["--config", scenario, "--bus", f"udp:{BUS_GROUP}:{port}", "--clock", clock, "--no-lcm"]
     for setting in settings:
         common += ["--set", setting]
     log = folder / "firmware.lcmlog"

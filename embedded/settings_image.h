@@ -1,0 +1,94 @@
+// Every number of a controller's settings in one order, as plain doubles: written on the host, read back by a target
+// that has neither files nor heap. One list of fields for both ways.
+#pragma once
+
+#include <type_traits>
+
+#include "reed/core/settings.h"
+
+namespace reed::embedded {
+
+inline constexpr int N = 5, P = 7;  // the arm a5, as the firmware's loop has it
+
+/// Calls each(double&) for every number of the settings.
+template <typename Each>
+class Visitor {
+ public:
+  explicit Visitor(Each each) : each_(each) {}
+
+  void operator()(double& value) { each_(value); }
+
+  /// Whole numbers, flags and names of choices travel as doubles.
+  template <typename T>
+    requires(std::is_integral_v<T> || std::is_enum_v<T>)
+  void operator()(T& value) {
+    double number = static_cast<double>(value);
+    each_(number);
+    value = static_cast<T>(static_cast<int>(number));
+  }
+
+  template <typename Derived>
+  void operator()(Eigen::PlainObjectBase<Derived>& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) each_(values.data()[i]);
+  }
+
+  template <typename... Values>
+  void All(Values&... values) {
+    ((*this)(values), ...);
+  }
+
+ private:
+  Each each_;
+};
+
+template <typename Each>
+void Visit(Visitor<Each>& visit, model::ArmModel<N, P>& arm) {
+  visit.All(arm.cos_alpha, arm.sin_alpha, arm.a, arm.d, arm.gravity, arm.tool_offset);
+  for (int i = 0; i <= N; ++i) visit(arm.first_shape[i]);
+  for (int j = 0; j < arm.first_shape[N]; ++j) {
+    model::UnitShape& shape = arm.shape[j];
+    visit.All(shape.k, shape.unit.m, shape.unit.h, shape.unit.J);
+  }
+  visit.All(arm.viscous, arm.p_nominal, arm.p_lo, arm.p_hi, arm.num_parameters);
+  visit.All(arm.rotor_inertia, arm.joint_stiffness, arm.joint_hardening, arm.torque_limit, arm.position_min,
+            arm.position_max, arm.speed_limit, arm.num_members);
+  for (int j = 0; j < arm.num_members; ++j) {
+    model::Member& m = arm.member[j];
+    visit.All(m.link, m.axis, m.start_at, m.end_at, m.length, m.EA, m.EI, m.GJ, m.rhoA);
+  }
+  for (int i = 0; i < N; ++i) visit(arm.carrier[i]);
+}
+
+template <typename Each>
+void Visit(Visitor<Each>& visit, strategy::Gains<N, P>& g) {
+  visit.All(g.K_d, g.Lambda, g.Gamma_known, g.Gamma_unknown, g.p_0, g.eta_0);
+  visit.All(g.sliding.c_0, g.sliding.c_1, g.sliding.phi, g.sliding.scale);
+  visit.All(g.sigma0_max, g.sigma1_max, g.dead_zone, g.leak_p, g.leak_sigma, g.K_o);
+  visit.All(g.Gamma_c_known, g.Gamma_c_unknown, g.kappa_0, g.kappa_max, g.friction_speed, g.subtract_observer);
+}
+
+template <typename Each>
+void Visit(Visitor<Each>& visit, strategy::ForceModeConfig& f) {
+  visit.All(f.gains.k_p, f.gains.k_i, f.gains.a, f.threshold_N, f.approach_speed_mps, f.speed_limit_mps, f.schedule,
+            f.bandwidth_radps, f.approach_time_s, f.least_k_p, f.most_k_p);
+}
+
+template <typename Each>
+void Visit(Visitor<Each>& visit, protect::LimitValues<N>& v) {
+  visit.All(v.torque, v.torque_step, v.position_min, v.position_max, v.speed, v.contact_force, v.hold_age, v.stop_age);
+}
+
+template <typename Each>
+void VisitSettings(Each each, Settings<N, P>& s) {
+  Visitor<Each> visit(each);
+  Visit(visit, s.arm);
+  Visit(visit, s.gains);
+  visit(s.law);
+  Visit(visit, s.force_mode);
+  visit.All(s.force.desired_N, s.force.start_s, s.force.ramp_s, s.force.end_s);
+  visit.All(s.source, s.normal, s.wall_present, s.compensate_deflection, s.velocity_filter_hz);
+  Visit(visit, s.limits);
+  visit.All(s.rate_hz, s.duration_s, s.start_wanted);
+}
+
+}  // namespace reed::embedded
