@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reed_tools.paths import BUILD, ROOT
+from reed_tools.paths import BUILD, PYTHON, ROOT
 
 HERE = Path(__file__).parent
 
@@ -34,13 +34,14 @@ def reed(fake_build):
         return {**os.environ, "REED_BUILD_DIR": str(fake_build), "PYTHONPATH": f"{ROOT / 'tools'}:{HERE}", **extra}
 
     def command(argv):
-        return [sys.executable, "-m", "reed_tools", *map(str, argv)]
+        return [*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)]  # as tools/reed does
 
-    def call(*argv, **extra):
-        return subprocess.run(command(argv), env=environment(extra), capture_output=True, text=True, timeout=120)
+    def call(*argv, cwd=None, **extra):
+        return subprocess.run(command(argv), env=environment(extra), cwd=cwd, capture_output=True, text=True, timeout=120)
 
     def start(*argv, **extra):
         return subprocess.Popen(command(argv), env=environment(extra), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     call.start = start
+    call.command, call.environment = command, environment
     return call

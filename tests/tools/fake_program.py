@@ -23,7 +23,7 @@ def main() -> int:
     stopped = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopped.append(True))
-    Path(options.log).with_suffix(".options").write_text(" ".join(sys.argv[1:]))
+    Path(options.log).with_suffix(".options").write_bytes(os.fsencode(" ".join(sys.argv[1:])))
     if behaviour == "refuse":
         print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
         return 2

@@ -4,6 +4,8 @@ pass_through(argv) when another program reads the options. Only the module of th
 import argparse
 import importlib
 import sys
+import traceback
+from pathlib import Path
 
 from reed_tools.errors import ReedError, RunError, UsageError
 
@@ -44,10 +46,13 @@ def main(argv: list[str]) -> int:
     except KeyboardInterrupt:
         print("reed: interrupted", file=sys.stderr)
         return 130
-    except BrokenPipeError:
-        return 0
     except OSError as error:  # a disk that is full, a folder without rights: nothing of ours to mend
         print(f"reed: {f'{error.filename}: ' if error.filename else ''}{(error.strerror or str(error)).lower()}", file=sys.stderr)
+        return RunError.exit_status
+    except Exception as error:  # a mistake of ours: one line that says what and where
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        text = (str(error).splitlines() or [""])[0]
+        print(f"reed: internal error, {type(error).__name__} at {Path(place.filename).name}:{place.lineno}: {text}", file=sys.stderr)
         return RunError.exit_status
 
 

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import NullLocator
 
 from reed_tools.figures import lyapunov, lyapunov_plot
 from reed_tools.record.signals import SOURCES, Signals
 from reed_tools.record.telemetry_log import Recording
-from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins
+from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins, ticker
 
 TIME = "time since the arm became active [s]"
 
@@ -161,7 +160,7 @@ def timing(recording: Recording, summary: dict):
         axis.set_title(f"p50 {figures['p50']:.1f}   p99 {figures['p99']:.1f}   max {figures['max']:.0f} µs", loc="right", fontsize=8)
         axis.set_xscale("log")
         axis.set_yscale("log")
-        axis.yaxis.set_minor_locator(NullLocator())
+        axis.yaxis.set_minor_locator(ticker.NullLocator())
         axis.set_ylim(bottom=0.7)
         label_left(axis, f"{name}\n[cycles]")
     figure.suptitle(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", x=0.01, ha="left",

@@ -4,6 +4,7 @@ says of the arm's shape when --plot is among the options."""
 import argparse
 import json
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -17,6 +18,7 @@ def pass_through(argv: list[str]) -> int:
     if any(option == "--plot" or option.startswith("--plot=") for option in argv):
         return plot(argv)
     path = str(program("reed_inspect"))
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it; the program ends as others do when its reader has left
     os.execv(path, [path, *argv])
 
 
@@ -33,7 +35,7 @@ def plot(argv: list[str]) -> int:
     parser.add_argument("--at")
     arguments = parser.parse_args(argv)
     asked = [str(program("reed_inspect")), "--arm", arguments.arm, "--modes", str(arguments.modes)]
-    done = subprocess.run([*asked, *(["--at=" + arguments.at] if arguments.at else [])], stdout=subprocess.PIPE, text=True)
+    done = subprocess.run([*asked, *(["--at=" + arguments.at] if arguments.at else [])], stdout=subprocess.PIPE, text=True, errors="surrogateescape")
     if done.returncode:
         return done.returncode   # the program has said why
     shapes = json.loads(done.stdout)

@@ -1,5 +1,5 @@
 """The two programs of one run: started plant first, stopped firmware first. Standard library only, because inside the
-small VM (tools/vm) this module itself is the program: `python -m reed_tools.run.hil PLAN.json`."""
+small VM (tools/vm) they run without its packages (pair.py)."""
 
 import ctypes
 import json
@@ -12,6 +12,7 @@ from pathlib import Path
 
 from reed_tools.record.log_tail import LogTail
 
+PROGRAM = Path(__file__).with_name("pair.py")
 POLL_S = 0.05
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
@@ -152,7 +153,3 @@ def main() -> int:
     outcome = run_pair(plan, lambda mode, t_s: print(f"{PROGRESS_MARK}{mode} {t_s}", flush=True))
     (Path(plan.out) / "outcome.json").write_text(json.dumps(asdict(outcome)))
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
