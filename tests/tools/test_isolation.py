@@ -39,7 +39,7 @@ def test_a_run_is_the_same_whatever_the_caller_tells_his_own_python(reed, hostil
     for part in ("lcmtypes", "bin/reed_config"):
         (build / part).symlink_to(f"{given['REED_BUILD_DIR']}/{part}")
     for name in ("reed_firmware", "reed_plant_sim"):
-        (build / "bin" / name).write_text(f"#!/bin/sh\nunset PYTHONHOME PYTHONSTARTUP\nPYTHONPATH={given['PYTHONPATH']} "
+        (build / "bin" / name).write_text("#!/bin/sh\nunset PYTHONHOME PYTHONPATH PYTHONSTARTUP\n"
                                           f"exec {given['REED_BUILD_DIR']}/bin/{name} \"$@\"\n")
         (build / "bin" / name).chmod(0o755)
     done = reed("run", "--bus", BUS, "--out", tmp_path / "run", cwd=folder, **variables, REED_BUILD_DIR=str(build))

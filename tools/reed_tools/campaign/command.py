@@ -4,18 +4,18 @@ import json
 import os
 import re
 import shutil
-import time
 from contextlib import ExitStack
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.workers import Workers, build_id, free_bus
 from reed_tools.errors import RunError, UsageError
-from reed_tools.paths import ROOT
 from reed_tools.run import bus_choice
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
+OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
 SELECTION = ("draws", "first", "count", "shard")
 
 
@@ -31,8 +31,8 @@ def add_arguments(parser) -> None:
     parser.add_argument("--jobs", type=int, metavar="N", help="draws at a time; default: one per core")
     parser.add_argument("--repeat", type=int, default=2, metavar="K", help="run the K worst draws twice and compare; default %(default)s")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--out", type=Path, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
-    where.add_argument("--resume", type=Path, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
+    where.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
+    where.add_argument("--resume", type=folders.argument, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
 
 
 def run(arguments) -> int:
@@ -59,11 +59,9 @@ def begun(arguments) -> tuple[Path, Campaign, list[int]]:
     options = {"seed": arguments.seed, "set": arguments.set or [], **{key: getattr(arguments, key) for key in SELECTION}}
     campaign = definition.load(source, options["seed"], tuple(options["set"]))
     indices = selected(campaign, options)
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-campaign-{campaign.name}"
-    if (folder / draws.FILE).exists():
-        raise UsageError(f"--out {folder}: holds a campaign already; --resume {folder} goes on with it")
+    folder = folders.fresh(arguments.out, f"campaign-{campaign.name}", OWN_FILES,
+                           f"a campaign already; --resume {arguments.out} goes on with it")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, folder / "campaign.toml")
         (folder / OPTIONS).write_text(json.dumps(options, indent=2) + "\n")
     except OSError as error:
@@ -78,6 +76,7 @@ def resumed(arguments) -> tuple[Path, Campaign, list[int]]:
         raise UsageError("--resume goes on with the folder's own campaign, seed and --set; leave them out")
     if not (folder / OPTIONS).is_file():
         raise UsageError(f"--resume {folder}: there is no campaign ({OPTIONS} is missing)")
+    folders.hold(folder)
     options = json.loads((folder / OPTIONS).read_text())
     asked = {key: getattr(arguments, key) for key in SELECTION if getattr(arguments, key) is not None}
     if asked:

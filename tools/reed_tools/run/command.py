@@ -1,14 +1,13 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
-import re
 import shutil
 import tempfile
-import time
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
-from reed_tools.paths import ROOT, program
+from reed_tools.paths import program
 from reed_tools.record import trace_events
 from reed_tools.record.telemetry_log import load, merge
 from reed_tools.run import bus_choice, hil, progress, scenario, vm
@@ -26,7 +25,8 @@ def add_arguments(parser) -> None:
     parser.add_argument("--duration", metavar="S", help="seconds from the moment the arm is active")
     parser.add_argument("--rate", metavar="HZ", help="cycles per second")
     parser.add_argument("--seed", metavar="N", help="of every random number of the plant")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="run folder; default out/<time>-<scenario>")
+    parser.add_argument("--out", metavar="DIR", type=folders.argument,
+                        help="run folder, without a run in it yet; default out/<time>-<scenario>")
     parser.add_argument("--bus", default="auto", metavar="BUS",
                         help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
                              "vm (real SocketCAN inside a small VM)")
@@ -44,7 +44,8 @@ def run(arguments) -> int:
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
             checked = Path(scratch, "effective.toml")
             effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked)
-            folder = make_folder(arguments, effective["scenario"]["name"])
+            folder = folders.fresh(arguments.out, effective["scenario"]["name"], OWN_FILES,
+                                   "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
         duration_s = effective["scenario"]["duration_s"]
         print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
@@ -60,20 +61,8 @@ def most_cycles(effective: dict) -> int:
     return int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
 
 
-def make_folder(arguments, name: str) -> Path:
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}"
-    if not (folder / "effective.toml").exists() and (others := [own for own in OWN_FILES if (folder / own).exists()]):
-        raise UsageError(f"--out {folder}: is no run folder, and its {others[0]} would be replaced")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        clear(folder)
-    except OSError as error:
-        raise UsageError(f"--out {folder}: {error.strerror}") from None
-    return folder.resolve()
-
-
 def clear(folder: Path) -> None:
-    """Without what an earlier run left there; other files stay."""
+    """Without what a run left there; other files stay."""
     for own in OWN_FILES:
         (folder / own).unlink(missing_ok=True)
 
@@ -124,5 +113,5 @@ def last_line(plan: hil.Plan, name: str) -> str:
 def shown(path: Path) -> str:
     try:
         return str(path.relative_to(Path.cwd()))
-    except ValueError:
+    except (ValueError, OSError):  # elsewhere; or the current folder is gone
         return str(path)
