@@ -65,8 +65,8 @@ def frames(path):
 
 def test_lockstep_holds_every_check_and_repeats_itself_bit_by_bit(udp_run, tmp_path):
     folder, first = udp_run
-    assert first["digest"] == run(tmp_path, *LOCKSTEP)["digest"]
-    assert first["digest"] != run(tmp_path, *LOCKSTEP, "--seed", "2")["digest"]
+    assert first["digest"] == run(tmp_path / "again", *LOCKSTEP)["digest"]
+    assert first["digest"] != run(tmp_path / "other", *LOCKSTEP, "--seed", "2")["digest"]
     assert (first["loop"]["heap_allocations"], first["loop"]["telemetry_dropped"], first["bus"]["lost"]) == (0, 0, 0)
 
 
