@@ -151,6 +151,40 @@ def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp
     assert json.loads((tmp_path / "summary.json").read_text())["cycles"] == 1100
 
 
+def test_a_killed_tool_leaves_no_program_behind(reed, tmp_path):
+    """Without the kernel's signal, which programs with file capabilities do not get."""
+    process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
+    wait_for(tmp_path / "firmware.lcmlog")
+    process.kill()
+    process.communicate(timeout=60)
+    numbers = [int((tmp_path / f"{name}.pid").read_text()) for name in ("firmware", "plant")]
+    deadline = time.monotonic() + 30
+    while any(running(number) for number in numbers):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert sorted((tmp_path / "stopped").read_text().splitlines()) == ["firmware", "plant"]  # in order, not killed
+    with bus_choice.held(BUS):
+        pass
+
+
+def running(number: int) -> bool:
+    """A program that ended and that nobody waits for is still listed."""
+    try:
+        return bus_choice.Path(f"/proc/{number}/stat").read_text().rpartition(") ")[2][0] != "Z"
+    except OSError:
+        return False
+
+
+def test_programs_get_stacks_of_the_usual_size(reed, tmp_path):
+    """They lock their memory, and the caller's limit may be a gigabyte."""
+    for limit, found in (("1048576", 8 << 20), ("4096", 4 << 20)):
+        run = reed.command(["run", "--bus", BUS, "--out", tmp_path / limit])
+        done = subprocess.run(["bash", "-c", f'ulimit -Ss {limit}; exec "$@"', "bash", *run],
+                              env=reed.environment({}), capture_output=True, text=True)
+        assert done.returncode == 1, done.stderr
+        assert int((tmp_path / limit / "firmware.stack").read_text()) == found
+
+
 def test_a_bus_in_use_by_another_run_is_refused(reed, tmp_path):
     first = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
     try:

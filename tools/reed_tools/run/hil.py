@@ -3,6 +3,7 @@ small VM (tools/vm) they run without its packages (pair.py)."""
 
 import ctypes
 import json
+import resource
 import signal
 import subprocess
 import sys
@@ -11,9 +12,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from reed_tools.record.log_tail import LogTail
+from reed_tools.run.guard import Guard
 
 PROGRAM = Path(__file__).with_name("pair.py")
 POLL_S = 0.05
+STACK_BYTES = 8 << 20     # what Linux gives by itself
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
 STALL_S = 30.0           # no recorded cycle for this long: something hangs
@@ -48,17 +51,24 @@ class Outcome:
 
 
 def die_with_parent() -> None:
-    """In the child: end when the tool is killed outright, so that no half of a run keeps the bus busy."""
+    """In a Python child: end in order when the tool is killed outright."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)
 
 
 def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.Popen:
     command = [program, "--config", plan.config, "--bus", plan.bus, "--clock", plan.clock,
                "--log", str(plan.log(name)), *([] if plan.lcm else ["--no-lcm"]), *extra]
+    limit_stacks()
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                start_new_session=True, preexec_fn=die_with_parent)
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+
+
+def limit_stacks() -> None:
+    """A program that locks its memory locks whole stacks: one for each thread, as large as the caller's limit."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_STACK)
+    if soft == resource.RLIM_INFINITY or soft > STACK_BYTES:
+        resource.setrlimit(resource.RLIMIT_STACK, (STACK_BYTES, hard))
 
 
 def said(plan: Plan, name: str) -> list[str]:
@@ -103,13 +113,20 @@ def await_bus(plan: Plan, plant: subprocess.Popen, interrupted: list) -> None:
 
 def run_pair(plan: Plan, on_progress) -> Outcome:
     """Runs both programs to the end of the scenario. on_progress(mode, t_s) is called a few times per second."""
+    with Guard() as guard:
+        return run_guarded(plan, on_progress, guard)
+
+
+def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
     outcome = Outcome()
     interrupted = []
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True)) for number in stop_signals()}
     plant = start("plant", plan.plant_sim, plan, [])
+    guard.watch(plant)
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
     firmware = start("firmware", plan.firmware, plan, ["--enable", *frames])
+    guard.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:

@@ -10,6 +10,7 @@ from pathlib import Path
 from reed_tools.errors import RunError
 from reed_tools.paths import PYTHON, ROOT
 from reed_tools.run import hil
+from reed_tools.run.guard import Guard
 
 VM = ROOT / "tools" / "vm" / "vm"
 BUS = "socketcan:vcan0"
@@ -32,8 +33,10 @@ def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
         file.flush()
         inside = command([*PYTHON, str(hil.PROGRAM), file.name], START_S + SLOWEST_CYCLE_S * plan.most_cycles,
                          realtime=plan.clock == "wall")
-        process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
-        interrupted = follow(process, on_progress)
+        with Guard() as guard:
+            process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
+            guard.watch(process)
+            interrupted = follow(process, on_progress)
     if not outcome_file.exists():
         raise RunError(f"the VM ended with status {process.returncode} before the run did")
     outcome = hil.Outcome(**json.loads(outcome_file.read_text()))
