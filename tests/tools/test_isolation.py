@@ -96,7 +96,7 @@ def test_a_mistake_of_ours_is_one_line_and_status_3(monkeypatch, capsys):
     monkeypatch.setattr(cli, "dispatch", wrong)
     assert cli.main(["run"]) == 3
     told = capsys.readouterr().err
-    assert told.startswith("reed: internal error, ValueError at test_isolation.py:") and told.endswith(": seven\n")
+    assert told.startswith("reed: internal error, ValueError at test_isolation.py:") and told.endswith(": seven is no colour\n")
 
 
 def test_one_module_starts_matplotlib():

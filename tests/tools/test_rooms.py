@@ -9,7 +9,7 @@ import pytest
 from reed_tools.paths import ROOT
 
 TOOLS = ROOT / "tools" / "reed_tools"
-BASE = {"errors", "folders", "paths"}  # modules that every room may import; they know no room
+BASE = {"errors", "folders", "paths", "text"}  # modules that every room may import; they know no room
 ARROWS = {
     "show": set(),
     "record": set(),

@@ -3,11 +3,13 @@ pass_through(argv) when another program reads the options. Only the module of th
 
 import argparse
 import importlib
+import os
 import sys
 import traceback
 from pathlib import Path
 
 from reed_tools.errors import ReedError, RunError, UsageError
+from reed_tools.text import one_line
 
 COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
@@ -41,19 +43,22 @@ def main(argv: list[str]) -> int:
     try:
         return dispatch(argv)
     except ReedError as error:
-        print(f"reed: {error}", file=sys.stderr)
-        return error.exit_status
+        return complain(str(error), error.exit_status)
     except KeyboardInterrupt:
         print("reed: interrupted", file=sys.stderr)
         return 130
     except OSError as error:  # a disk that is full, a folder without rights: nothing of ours to mend
-        print(f"reed: {f'{error.filename}: ' if error.filename else ''}{(error.strerror or str(error)).lower()}", file=sys.stderr)
-        return RunError.exit_status
+        where = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
+        return complain(where + (error.strerror or str(error)).lower(), RunError.exit_status)
     except Exception as error:  # a mistake of ours: one line that says what and where
         place = traceback.extract_tb(error.__traceback__)[-1]
-        text = (str(error).splitlines() or [""])[0]
-        print(f"reed: internal error, {type(error).__name__} at {Path(place.filename).name}:{place.lineno}: {text}", file=sys.stderr)
-        return RunError.exit_status
+        return complain(f"internal error, {type(error).__name__} at {Path(place.filename).name}:{place.lineno}: {error}",
+                        RunError.exit_status)
+
+
+def complain(text: str, status: int) -> int:
+    print(f"reed: {one_line(text)}", file=sys.stderr)
+    return status
 
 
 def dispatch(argv: list[str]) -> int:

@@ -1,15 +1,16 @@
 """The result of a run as a control engineer wants to read it: verdict and checks, then error by second, bus, timing."""
 
 from rich.table import Table
+from rich.text import Text
 
-from reed_tools.show.tables import console, grid, number
+from reed_tools.show.tables import console, grid, mark, number
+from reed_tools.text import plain
 
 
 def checks(summary: dict) -> Table:
     table = grid("checks", "figure", "value", "limit", "")
     for check in summary["checks"]:
-        table.add_row(check["name"], number(check["value"]), number(check["limit"]),
-                      "[green]ok[/]" if check["ok"] else "[bold red]FAIL[/]")
+        table.add_row(check["name"], number(check["value"]), number(check["limit"]), mark(check["ok"]))
     return table
 
 
@@ -63,5 +64,5 @@ def show(summary: dict) -> None:
     out.print()
     out.print(checks(summary))
     passed = summary["verdict"] == "pass"
-    out.print(f"{summary['scenario']} on {summary['arm']}: [bold {'green' if passed else 'red'}]{summary['verdict'].upper()}[/]"
-              f"   digest {summary['digest'][:16]}", highlight=False)
+    out.print(plain(f"{summary['scenario']} on {summary['arm']}: "), Text(summary["verdict"].upper(), f"bold {'green' if passed else 'red'}"),
+              f"   digest {summary['digest'][:16]}", sep="", highlight=False)

@@ -7,12 +7,13 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.markup import escape
+from rich.text import Text
 
 from reed_tools.machine import spy
 from reed_tools.paths import ROOT
 from reed_tools.run import bus_choice
 from reed_tools.show.tables import console, grid
+from reed_tools.text import plain
 
 MCL_CURRENT = 1
 PRIORITY = 81  # one above the loop's usual one
@@ -160,12 +161,12 @@ def run(arguments) -> int:
     table = grid(f"{platform.system()} {platform.release()}, {platform.machine()}", "what", "", "found", numbers=False)
     found = [diagnosed(finding) for finding in FINDINGS]
     for item in found:
-        table.add_row(item.subject, "[green]yes[/]" if item.good else "[yellow]no[/]", escape(item.detail))
+        table.add_row(item.subject, Text("yes", "green") if item.good else Text("no", "yellow"), plain(item.detail))
     out = console()
     out.print(table)
     for item in found:
         if item.fix:
-            out.print(f"[bold]{item.subject}[/]: {escape(item.fix)}", soft_wrap=True, highlight=False)
+            out.print(Text(item.subject, "bold"), f": {item.fix}", sep="", soft_wrap=True, highlight=False)
     buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
     usable = [buses[item.subject] for item in found if item.good and item.subject in buses]
     out.print(f"run works here with --bus {' or '.join(usable)}" if usable else "run works here over no bus yet, see above", highlight=False)

@@ -11,6 +11,7 @@ from reed_tools.paths import program
 from reed_tools.record import trace_events
 from reed_tools.record.telemetry_log import load, merge
 from reed_tools.run import bus_choice, hil, progress, scenario, vm
+from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
@@ -48,11 +49,11 @@ def run(arguments) -> int:
                                    "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
         duration_s = effective["scenario"]["duration_s"]
-        print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
-              f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)
+        print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
+                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
                         bus, arguments.clock, str(folder), most_cycles(effective))
-        with progress.shown(effective["scenario"]["name"], duration_s) as on_progress:
+        with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
             outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
     return conclude(folder, plan, outcome, arguments.trace)
 
@@ -86,7 +87,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
         result_table.show(summary)
     for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
         if not (complaint and line in complaint):
-            print(line)  # what the machine refused, with the fix; why the arm stopped
+            print(plain(line))  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")
