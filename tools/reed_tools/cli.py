@@ -8,8 +8,9 @@ import sys
 import traceback
 from pathlib import Path
 
+from reed_tools import version
 from reed_tools.errors import ReedError, RunError, UsageError
-from reed_tools.text import one_line
+from reed_tools.text import did_you_mean, one_line
 
 COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
@@ -31,12 +32,15 @@ class OneLineParser(argparse.ArgumentParser):
     """Says what is wrong in one line; the page of usage is what --help is for."""
 
     def error(self, message: str):
-        raise UsageError(f"{message} (see `{self.prog} --help`)")
+        unknown = message.partition("unrecognized arguments: ")[2].split()
+        options = [option for action in self._actions for option in action.option_strings]
+        hint = did_you_mean(unknown[0].partition("=")[0], options) if unknown and unknown[0].startswith("-") else ""
+        raise UsageError(f"{message}{hint} (see `{self.prog} --help`)")
 
 
 def overview() -> str:
     rows = "\n".join(f"  {name:<9}{text}" for name, (_, text) in COMMANDS.items())
-    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more."
+    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more; --version says which Reed this is."
 
 
 def main(argv: list[str]) -> int:
@@ -66,8 +70,11 @@ def dispatch(argv: list[str]) -> int:
         print(overview())
         return 0
     name, rest = argv[0], argv[1:]
+    if name == "--version" or (name in COMMANDS and "--version" in rest):
+        print(version.text())
+        return 0
     if name not in COMMANDS:
-        raise UsageError(f"unknown command `{name}`; commands: {', '.join(COMMANDS)}")
+        raise UsageError(f"unknown command `{name}`{did_you_mean(name, COMMANDS)}; commands: {', '.join(COMMANDS)}")
     module = module_of(name)
     if hasattr(module, "pass_through"):
         return module.pass_through(rest)

@@ -8,6 +8,7 @@ from reed_tools.bench import embedded, loop, plant, plot, rates, rows, steps, wa
 from reed_tools.bench.machine import Machine
 from reed_tools.bench.rows import Found, Row
 from reed_tools.errors import ReedError, UsageError
+from reed_tools.text import did_you_mean
 
 
 def cortex_m7(_arguments, folder) -> Found:
@@ -65,7 +66,7 @@ def settle(arguments) -> None:
             raise UsageError(f"--{name} {value}: allowed are 1 and more")
     for name in arguments.only:
         if name not in MEASURES:
-            raise UsageError(f"bench {name}: there are {', '.join(MEASURES)}")
+            raise UsageError(f"bench {name}: there is no such measurement{did_you_mean(name, MEASURES)}; there are {', '.join(MEASURES)}")
 
 
 def tell(found: Found, machine: Machine, folder: Path) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from reed_tools.errors import UsageError
 from reed_tools.figures import checks
 from reed_tools.paths import ROOT
+from reed_tools.text import did_you_mean
 
 CAMPAIGNS = ROOT / "config" / "campaigns"
 DISTRIBUTIONS = ("uniform", "log_uniform", "integer", "choice")
@@ -95,8 +96,9 @@ def find(name_or_path: str) -> Path:
     if "/" in name_or_path or name_or_path.endswith(".toml"):
         path = Path(name_or_path)
     if not path.is_file():
-        names = ", ".join(sorted(file.stem for file in CAMPAIGNS.glob("*.toml")))
-        raise UsageError(f"campaign {name_or_path}: {path} is not there; config/campaigns has: {names}")
+        names = sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
+        raise UsageError(f"campaign {name_or_path}: {path} is not there{did_you_mean(name_or_path, names)}; "
+                         f"config/campaigns has: {', '.join(names)}")
     return path
 
 
@@ -116,7 +118,7 @@ def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Ca
     for section, keys in SECTIONS.items():
         for key in tree.get(section, {}):
             if key not in keys:
-                raise UsageError(f"{path}: {section}.{key}: unknown key; allowed: {', '.join(sorted(keys))}")
+                raise UsageError(f"{path}: {section}.{key}: unknown key{did_you_mean(key, keys)}; allowed: {', '.join(sorted(keys))}")
     head = tree.get("campaign", {})
     for key in ("name", "scenario", "draws"):
         if key not in head:

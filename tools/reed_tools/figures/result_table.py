@@ -25,7 +25,8 @@ def windows(summary: dict) -> Table:
 
 
 def timing(summary: dict) -> Table:
-    table = grid("time per cycle, µs", "phase", "p50", "p99", "p99.9", "max")
+    lockstep = summary["clock"] == "lockstep"
+    table = grid(f"time per cycle, µs{': lockstep keeps no period' if lockstep else ''}", "phase", "p50", "p99", "p99.9", "max")
     for phase, figures in summary["timing_us"].items():
         row = [figures[key] for key in ("p50", "p99", "p999", "max")] if figures else [None] * 4
         table.add_row(phase, *(number(value, 4) for value in row))

@@ -11,7 +11,7 @@ import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from reed_tools.record.log_tail import LogTail
+from reed_tools.record.log_tail import ACTIVE, LogTail
 from reed_tools.run.guard import Guard
 
 PROGRAM = Path(__file__).with_name("pair.py")
@@ -131,6 +131,9 @@ def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:
         outcome.firmware_status = stop(firmware)
+        tail = LogTail(plan.log("firmware"))
+        if (state := tail.control()) is not None:
+            tell_progress(tail, state, on_progress)  # where the run ended, not where it was when last looked at
         # The plant asked to stop is not a plant that died: only what it said before counts.
         died = plant.poll()
         status = stop(plant)
@@ -156,13 +159,18 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
             return
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
-            cycle, mode, t_s = state
-            on_progress(mode, t_s)
+            cycle = state[0]
+            tell_progress(tail, state, on_progress)
             if cycle > plan.most_cycles:
                 outcome.stopped_because = f"the scenario was not done after {cycle} cycles"
                 return
         if plant.poll() is not None and now - last_growth > 3.0:
             return  # the firmware had its time to notice
+
+
+def tell_progress(tail: LogTail, state: tuple[int, int, float], on_progress) -> None:
+    _, mode, t_s = state
+    on_progress(mode, t_s if mode == ACTIVE else tail.reached_s())
 
 
 def main() -> int:
