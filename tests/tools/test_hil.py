@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 
+import can
 import numpy as np
 import pytest
 
@@ -143,6 +144,12 @@ def test_wall_clock_run_on_socketcan_ends_without_a_fault_and_says_what_it_measu
 
 def test_bus_vm_is_the_same_run_with_its_folder_outside(udp_run, tmp_path):
     assert run(tmp_path, *LOCKSTEP, bus="vm")["digest"] == udp_run[1]["digest"]
+
+
+def test_python_can_reads_the_frames_of_a_run_folder(udp_run):
+    folder, _ = udp_run
+    read = [(f"{message.arbitration_id:03X}", message.data.hex().upper()) for message in can.LogReader(folder / "bus.log")]
+    assert len(read) > 10_000 and read == frames(folder / "bus.candump")
 
 
 def until_it_stops_growing(path):

@@ -1,5 +1,6 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
+import contextlib
 import shutil
 import tempfile
 from pathlib import Path
@@ -14,7 +15,7 @@ from reed_tools.run import bus_choice, hil, progress, scenario, vm
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
+OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump", "bus.log",
              "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
@@ -72,6 +73,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     """Keeps what was recorded first, then tells what happened."""
     from reed_tools.figures.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
 
+    link_frames(folder)
     merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
     if trace:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
@@ -94,6 +96,13 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     if complaint:
         raise RunError(complaint)
     return 0 if summary["verdict"] == "pass" else 1
+
+
+def link_frames(folder: Path) -> None:
+    """python-can goes by the suffix and knows this format as .log."""
+    if (folder / "bus.candump").exists():
+        with contextlib.suppress(OSError):  # a file system without links
+            (folder / "bus.log").symlink_to("bus.candump")
 
 
 def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
