@@ -8,7 +8,6 @@ import sys
 import traceback
 from pathlib import Path
 
-from reed_tools import version
 from reed_tools.errors import ReedError, RunError, UsageError
 from reed_tools.text import did_you_mean, one_line
 
@@ -71,7 +70,7 @@ def dispatch(argv: list[str]) -> int:
         return 0
     name, rest = argv[0], argv[1:]
     if name == "--version" or (name in COMMANDS and "--version" in rest):
-        print(version.text())
+        print(version())
         return 0
     if name not in COMMANDS:
         raise UsageError(f"unknown command `{name}`{did_you_mean(name, COMMANDS)}; commands: {', '.join(COMMANDS)}")
@@ -79,6 +78,12 @@ def dispatch(argv: list[str]) -> int:
     if hasattr(module, "pass_through"):
         return module.pass_through(rest)
     return module.run(parser_of(name).parse_args(rest))
+
+
+def version() -> str:
+    from reed_tools import versions  # asks git: only when it is asked for
+
+    return f"reed {versions.reed()}, commit {versions.commit() or 'unknown: no git, or no checkout of this user'}"
 
 
 def module_of(name: str):
