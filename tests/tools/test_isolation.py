@@ -74,9 +74,10 @@ def test_a_reader_that_leaves_ends_no_run(reed, tmp_path):
 
 
 def test_a_full_disk_behind_standard_output_is_told_when_the_run_is_done(reed, tmp_path):
-    with open("/dev/full", "w") as full:
-        done = subprocess.run(reed.command(["doctor"]), env=reed.environment({}), stdout=full, stderr=subprocess.PIPE, text=True)
-    assert (done.returncode, done.stderr) == (3, "reed: standard output: no space left on device\n")
+    for argv in (["doctor"], ["run", "--help"]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(reed.command(argv), env=reed.environment({}), stdout=full, stderr=subprocess.PIPE, text=True)
+        assert (done.returncode, done.stderr) == (3, "reed: standard output: no space left on device\n")
 
 
 def test_a_path_that_is_no_utf8_is_a_path(reed, tmp_path):

@@ -47,6 +47,8 @@ def main(argv: list[str]) -> int:
         return dispatch(argv)
     except ReedError as error:
         return complain(str(error), error.exit_status)
+    except SystemExit as done:  # --help
+        return done.code or 0
     except KeyboardInterrupt:
         print("reed: interrupted", file=sys.stderr)
         return 130
