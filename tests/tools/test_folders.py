@@ -1,5 +1,6 @@
 """Folders for results: one process each."""
 
+import errno
 import os
 import subprocess
 import sys
@@ -38,6 +39,14 @@ def test_a_folder_is_in_use_until_its_process_has_ended_however_it_ends(tmp_path
     first.kill()
     first.communicate()
     assert folders.fresh(folder, "", ("a", "b"), "a run already") == folder
+
+
+def test_a_file_system_without_locks_is_used_without_them(tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+
+    monkeypatch.setattr(folders.fcntl, "flock", refuse)
+    assert folders.fresh(tmp_path, "", ("a",), "a run already") == tmp_path
 
 
 @pytest.mark.parametrize("there, told", [("a", "holds a run already"), ("b", "its b would be replaced")])

@@ -62,4 +62,6 @@ def hold(folder: Path) -> None:
     except BlockingIOError:
         os.close(descriptor)
         raise UsageError(f"{folder}: another command is writing there; wait until it has ended") from None
+    except OSError:  # a file system without locks: mkdir alone decides there
+        pass
     held.append(descriptor)
