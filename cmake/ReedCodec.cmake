@@ -13,8 +13,8 @@ function(reed_add_codec target dbc)
   file(MAKE_DIRECTORY ${out})
   add_custom_command(
     OUTPUT ${out}/reed.c ${out}/reed.h ${out}/reed_layout.h
-    COMMAND ${REED_PYTHON} -m cantools generate_c_source --database-name reed --use-round ${dbc}
-    COMMAND ${REED_PYTHON} ${layout_script} ${dbc} ${out}/reed_layout.h
+    COMMAND ${REED_PYTHON} -I -X utf8 -m cantools generate_c_source --database-name reed --use-round ${dbc}
+    COMMAND ${REED_PYTHON} -I -X utf8 ${layout_script} ${dbc} ${out}/reed_layout.h
     DEPENDS ${dbc} ${layout_script}
     WORKING_DIRECTORY ${out}
     COMMENT "Generating the codec from ${dbc}"

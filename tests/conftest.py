@@ -1,6 +1,12 @@
 """Several workers may share these tests (`pytest -n`). What flies in wall time stays together on one of them, so that no
 other flight takes its core; what else there is goes file by file, each with a bus of its own."""
 
+import signal
+
+for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+    if signal.getsignal(number) == signal.SIG_IGN:  # `nohup … &`: it stays so here, and what the tests start gets the usual
+        signal.signal(number, lambda *_: None)
+
 FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
          "timing/test_loop_calls.py", "tools/test_hil.py")
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "reed/config/schema/allowed.h"
 #include "reed/config/schema/arm_file.h"
 
 namespace reed {
@@ -17,10 +18,8 @@ std::string FindConfig(const std::string& kind, const std::string& name_or_path)
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   throw ConfigError(
-      "no " + kind.substr(0, kind.size() - 1) + " '" + name_or_path + "'; allowed: " + list +
+      "no " + kind.substr(0, kind.size() - 1) + " '" + name_or_path + "'; " + Allowed(name_or_path, names) +
       (kind == "arms" ? ", or a path to a .toml or .json file" : ", or a path to a .toml file"));
 }
 

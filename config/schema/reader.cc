@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "reed/config/schema/allowed.h"
+
 namespace reed {
 
 std::string ToText(double value) {
@@ -111,9 +113,8 @@ void Reader::ChoiceIndex(const char* key, int& index, const std::vector<std::str
   const auto text = node->value_exact<std::string>();
   const auto found = text ? std::find(allowed.begin(), allowed.end(), *text) : allowed.end();
   if (found == allowed.end()) {
-    std::string list;
-    for (const std::string& name : allowed) list += (list.empty() ? "" : ", ") + name;
-    Fail(key, (text ? "'" + *text + "' is unknown" : std::string("expected a text")) + "; allowed: " + list);
+    Fail(key, (text ? "'" + *text + "' is unknown" : std::string("expected a text")) + "; " +
+                  Allowed(text.value_or(""), allowed));
   }
   index = static_cast<int>(found - allowed.begin());
 }
@@ -122,9 +123,8 @@ void Reader::RefuseUnknown() const {
   if (table_ == nullptr) return;
   for (const auto& [key, node] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
-    std::string list;
-    for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
-    doc_.Fail(&node, KeyName(std::string(key.str())), "unknown key; allowed: " + list);
+    const std::string word(key.str());
+    doc_.Fail(&node, KeyName(word), "unknown key; " + Allowed(word, known_));
   }
 }
 

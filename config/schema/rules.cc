@@ -1,7 +1,10 @@
 #include "reed/config/schema/rules.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "reed/config/schema/allowed.h"
 #include "reed/config/schema/bound.h"
 
 namespace reed {
@@ -60,12 +63,9 @@ class Rules {
   }
 
   void LawIsKnown() const {
-    std::string list;
-    for (const char* law : kLaws) {
-      if (s_.control.law == law) return;
-      list += (list.empty() ? "" : ", ") + std::string(law);
-    }
-    Fail("control.law", "'" + s_.control.law + "' is unknown; allowed: " + list);
+    const std::vector<std::string> laws(std::begin(kLaws), std::end(kLaws));
+    if (std::find(laws.begin(), laws.end(), s_.control.law) != laws.end()) return;
+    Fail("control.law", "'" + s_.control.law + "' is unknown; " + Allowed(s_.control.law, laws));
   }
 
   /// A reading that saturates below the limit would never exceed it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reed/config/schema/allowed.h"
 #include "reed/config/schema/arm_file.h"
 #include "reed/config/schema/reader.h"
 #include "reed/config/schema/rules.h"
@@ -77,9 +78,8 @@ void RefuseUnknownSections(Document& doc) {
                                           "limits",   "timing",      "checks"};
   for (const auto& [key, node] : doc.root()) {
     if (std::find(sections.begin(), sections.end(), key.str()) != sections.end()) continue;
-    std::string list;
-    for (const std::string& name : sections) list += (list.empty() ? "" : ", ") + name;
-    doc.Fail(&node, std::string(key.str()), "unknown section; allowed: " + list);
+    const std::string word(key.str());
+    doc.Fail(&node, word, "unknown section; " + Allowed(word, sections));
   }
 }
 

@@ -226,6 +226,25 @@ def test_effective_numbers_are_as_short_as_typed_and_read_back_unchanged(tmp_pat
     assert second.read_text() == text
 
 
+@pytest.mark.parametrize("arguments, meant", [
+    (("--config", "press_knwon"), "press_known"),
+    (("--arm", "a55"), "a5"),
+    (("--set", "wall.stifness_Npm=1"), "stiffness_Npm"),
+    (("--set", "wal.friction=1"), "wall"),
+    (("--set", "arm.couloumb=[0.1]"), "coulomb"),
+    (("--set", 'control.law="seperated"'), "separated"),
+    (("--set", 'force.source="unkonwn"'), "unknown"),
+])
+def test_a_slip_of_the_fingers_gets_the_word_that_was_meant(arguments, meant):
+    assert f"; did you mean '{meant}'? allowed: " in refused(*arguments)
+
+
+@pytest.mark.parametrize("word", ["zzzzzzz", "x", "stiffness_Npm" * 1000])
+def test_what_is_near_to_nothing_gets_the_list_alone(word):
+    told = refused("--set", f"wall.{word}=1")
+    assert "unknown key; allowed: present" in told and "mean" not in told
+
+
 def test_the_readme_holds_the_table_of_every_key():
     keys = subprocess.run([PROGRAM, "--keys"], capture_output=True, text=True, check=True).stdout
     assert keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --keys` prints"

@@ -181,6 +181,22 @@ def test_plot_draws_the_arm_and_says_where(inspect_program, tmp_path):
     assert "<svg" in svg, done.stderr
 
 
+@pytest.mark.parametrize("pose", [["-0.1,0.5,0,-1,0"], ["-0.1", "0.5", "0", "-1", "0"], ["-.1,", "0.5,0", "-1e0", "0"]])
+def test_a_pose_may_have_commas_or_blanks_and_begin_with_a_minus(inspect_program, tmp_path, pose):
+    asked = reed("--arm", "a5", "--modes", "1", "--at", *pose, cwd=tmp_path)
+    assert asked.returncode == 0, asked.stderr
+    assert asked.stdout == inspect(inspect_program, "--arm", "a5", "--modes", "1", "--at=-0.1,0.5,0,-1,0").stdout
+    drawn = reed("--arm", "a5", "--at", *pose, "--plot", "arm.png", cwd=tmp_path)
+    assert drawn.returncode == 0 and (tmp_path / "arm.png").exists(), drawn.stderr
+
+
+def test_the_help_names_every_option(inspect_program, tmp_path):
+    told = reed("--help", cwd=tmp_path)
+    assert (told.returncode, told.stderr) == (0, "")
+    for option in ("--arm", "--states", "--modes", "--at", "--beam", "--plot [FILE]", "Usage: tools/reed inspect"):
+        assert option in told.stdout
+
+
 @pytest.mark.parametrize("arguments, words", [
     (["--plot"], ["--arm"]),
     (["--plot", "--arm", "nobody"], ["nobody", "a5"]),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reed_tools.paths import BUILD, ROOT
+from reed_tools.paths import BUILD, PYTHON, ROOT
 
 HERE = Path(__file__).parent
 
@@ -20,7 +20,7 @@ def fake_build(tmp_path_factory):
     (build / "bin" / "reed_config").symlink_to(BUILD / "bin" / "reed_config")
     for name in ("reed_firmware", "reed_plant_sim"):
         path = build / "bin" / name
-        path.write_text(f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(HERE)!r})\n"
+        path.write_text(f"#!{sys.executable}\nimport sys\nsys.path[:0] = {[str(ROOT / 'tools'), str(HERE)]!r}\n"
                         "import fake_program\nsys.exit(fake_program.main())\n")
         path.chmod(0o755)
     return build
@@ -31,16 +31,17 @@ def reed(fake_build):
     """reed(*argv, **environment) runs the tools against the stand-ins; reed.start(...) does not wait."""
 
     def environment(extra):
-        return {**os.environ, "REED_BUILD_DIR": str(fake_build), "PYTHONPATH": f"{ROOT / 'tools'}:{HERE}", **extra}
+        return {**os.environ, "REED_BUILD_DIR": str(fake_build), **extra}
 
     def command(argv):
-        return [sys.executable, "-m", "reed_tools", *map(str, argv)]
+        return [*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)]  # as tools/reed does
 
-    def call(*argv, **extra):
-        return subprocess.run(command(argv), env=environment(extra), capture_output=True, text=True, timeout=120)
+    def call(*argv, cwd=None, **extra):
+        return subprocess.run(command(argv), env=environment(extra), cwd=cwd, capture_output=True, text=True, timeout=120)
 
     def start(*argv, **extra):
         return subprocess.Popen(command(argv), env=environment(extra), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     call.start = start
+    call.command, call.environment = command, environment
     return call

@@ -2,7 +2,9 @@
 REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), complain, refuse, die, endless or late (a plant)."""
 
 import argparse
+import ctypes
 import os
+import resource
 import signal
 import sys
 import time
@@ -20,10 +22,13 @@ def main() -> int:
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")
     options = parser.parse_args()
+    ctypes.CDLL(None).prctl(1, 0)  # as the kernel does for a program with file capabilities: no signal when its parent ends
     stopped = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopped.append(True))
-    Path(options.log).with_suffix(".options").write_text(" ".join(sys.argv[1:]))
+    Path(options.log).with_suffix(".pid").write_text(str(os.getpid()))
+    Path(options.log).with_suffix(".stack").write_text(str(resource.getrlimit(resource.RLIMIT_STACK)[0]))
+    Path(options.log).with_suffix(".options").write_bytes(os.fsencode(" ".join(sys.argv[1:])))
     if behaviour == "refuse":
         print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
         return 2

@@ -9,9 +9,8 @@ compute from a log can be checked without the programs.
 import math
 from pathlib import Path
 
-import lcm
-
 from reed_tools.paths import use_message_types
+from reed_tools.record.telemetry_log import open_log
 
 DOF = 2
 D = (3.0, 4.0)
@@ -73,6 +72,7 @@ def force_true(t: float) -> float:
 
 def messages(cycles: int, clock: str, fault_at_s: float | None):
     """(program, channel, message) of every cycle."""
+    use_message_types()
     import reed
 
     def stamp(message, cycle):
@@ -152,7 +152,7 @@ def write(folder: Path, checks: list[tuple[str, float]], duration_s: float = 3.0
     """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them."""
     use_message_types()
     folder.mkdir(parents=True, exist_ok=True)
-    logs = {name: lcm.EventLog(str(folder / f"{name}.lcmlog"), "w") for name in ("firmware", "plant")}
+    logs = {name: open_log(folder / f"{name}.lcmlog", "w") for name in ("firmware", "plant")}
     cycles = LEAD_CYCLES + round(duration_s * RATE_HZ)
     logs["firmware"].write_event(0, "REED_RUN", run_message(clock, finished=False).encode())
     for program, channel, message in messages(cycles + extra_plant_cycles, clock, fault_at_s):

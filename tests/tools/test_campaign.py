@@ -234,6 +234,10 @@ def test_draws_of_another_campaign_and_lines_that_are_no_draw_are_refused(tmp_pa
     (["--shard", "5/4"], "I from 1 to N"),
     (["--from", "200"], "--from 200"),
     (["--jobs", "-1"], "--jobs"),
+    (["--draws", "1000000000000"], "--draws 1000000000000: allowed: a whole number from 1 to 1000000"),
+    (["--count", "1000000000000"], "--count"),
+    (["--jobs", "99999"], "--jobs"),
+    (["--shard", "1/99999999999"], "I from 1 to N"),
     (["--resume", "/nowhere"], "/nowhere"),
     (["--set", "wall.stifness_Npm=1"], "stiffness_Npm"),
     (["--out", "/proc/nowhere"], "/proc/nowhere"),
@@ -254,12 +258,70 @@ def test_bad_input_is_one_line_and_status_2(reed, tmp_path, argv, told):
     (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\nlog_uniform = [0, 1]\n', "0 < low"),
     (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\nchoice = ["b"]\ntimes = 2\n', "multiplies"),
     ("campaign", "not TOML"),
+    ("# gr\xfcn\n" + HEAD.format(scenario="x"), "not TOML: .*utf-8"),
+    ("a = " + "[" * 30000, "not TOML"),
+    ("a = " + "9" * 5000, "not TOML"),
+    ("campaign = 3\n", "campaign: expected a table"),
+    ("limits = [1]\n" + HEAD.format(scenario="x"), "limits: expected a table"),
+    ("draw = 3\n" + HEAD.format(scenario="x"), "draw: expected"),
+    ("draw = [3]\n" + HEAD.format(scenario="x"), "draw: expected"),
+    ("set = 'a'\n" + HEAD.format(scenario="x"), "set: expected a table"),
+    (HEAD.format(scenario="x") + "[set]\nwall.friction = 0.2\n", 'in quotes, like "wall.friction" = 0.2'),
+    (HEAD.format(scenario="x").replace('"small"', "3"), "campaign.name = 3: expected text"),
+    (HEAD.format(scenario="x").replace('"small"', r'"a\u0007"'), "campaign.name"),
+    (HEAD.format(scenario="x").replace('"x"', "[1]"), "campaign.scenario"),
+    (HEAD.format(scenario="x") + "description = 3\n", "campaign.description"),
+    (HEAD.format(scenario="x").replace("draws = 4", "draws = 1000001"), "campaign.draws = 1000001: .* to 1000000"),
+    (HEAD.format(scenario="x").replace("seed = 3", "seed = -1"), "campaign.seed"),
+    (HEAD.format(scenario="x") + "[limits]\nworst_ratio = " + "9" * 400 + "\n", "limits.worst_ratio"),
+    (HEAD.format(scenario="x") + '[[draw]]\nkey = "a"\ninteger = [0, ' + "9" * 400 + "]\n", "integer"),
 ])
 def test_a_bad_campaign_file_is_refused_with_its_key(tmp_path, text, told):
     path = tmp_path / "bad.toml"
-    path.write_text(text)
+    path.write_bytes(text.encode("latin-1"))
     with pytest.raises(definition.UsageError, match=told):
         definition.load(path)
+
+
+@pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"{}", b"\xff\xfe", b"[" * 50000, b'{"draws": "4"}', b'{"draws": true}',
+                                    b'{"seed": -1}', b'{"set": "a=b"}', b'{"set": [3]}', b'{"count": 1000000000000}', b'{"shard": 3}'])
+def test_damaged_options_are_one_line(reed, tmp_path, damage):
+    good = {"seed": None, "set": [], "draws": None, "first": None, "count": None, "shard": None}
+    (tmp_path / "campaign.toml").write_text(HEAD.format(scenario="press_known"))
+    try:
+        changed = json.loads(damage)
+        content = json.dumps({**good, **changed}).encode() if changed else damage
+    except (ValueError, TypeError, RecursionError):
+        content = damage
+    (tmp_path / "options.json").write_bytes(content)
+    assert "options.json: damaged" in one_line(reed("campaign", "--resume", tmp_path), 2)
+
+
+@pytest.mark.parametrize("line", [b"\xff", b"3", b"[" * 50000, b'{"index": "0"}', b'{"checks": [3]}', b'{"checks": [{"name": "a"}]}',
+                                  b'{"overrides": ["a"]}', b'{"overrides": "a=b"}', b'{"message": 3}', b'{"colour": 3}'])
+def test_damaged_draws_are_one_line(tmp_path, line):
+    draws.append(tmp_path, record(0, 5.0))
+    good = json.loads((tmp_path / "draws.jsonl").read_text())
+    try:
+        line = json.dumps({**good, **json.loads(line)}).encode()
+    except (ValueError, TypeError, RecursionError):
+        pass
+    with open(tmp_path / "draws.jsonl", "ab") as file:
+        file.write(line + b"\n")
+    with pytest.raises(definition.UsageError, match="draws.jsonl:2: not a draw"):
+        draws.read(tmp_path, "definition")
+
+
+def test_what_a_file_says_is_text_in_page_and_junit(reed, small, tmp_path):
+    """A description with markup and control characters, and a seed that is none, reach neither HTML nor XML as such."""
+    small.write_text(small.read_text().replace('name = "small"', 'name = "<i>&small"').replace(
+        WALL, WALL + '[set]\n"scenario.description" = "<script>alert(1)</script> --seed <b>9</b> [/nope] \\u001b[31m\\u0001"\n'))
+    done = reed("campaign", small, "--count", 1, "--repeat", 0, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (tmp_path / "out" / "campaign.html").read_text()
+    assert "<script>" not in page and "<b>9" not in page and "<i>" not in page and "&lt;script&gt;" in page
+    assert "\x1b" not in done.stdout and "[/nope]" in done.stdout
+    assert "<script>alert(1)" in xml.parse(tmp_path / "out" / "junit.xml").getroot()[-1].find("system-out").text
 
 
 # ---- with the programs themselves ----

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 
+import can
 import numpy as np
 import pytest
 
@@ -65,8 +66,8 @@ def frames(path):
 
 def test_lockstep_holds_every_check_and_repeats_itself_bit_by_bit(udp_run, tmp_path):
     folder, first = udp_run
-    assert first["digest"] == run(tmp_path, *LOCKSTEP)["digest"]
-    assert first["digest"] != run(tmp_path, *LOCKSTEP, "--seed", "2")["digest"]
+    assert first["digest"] == run(tmp_path / "again", *LOCKSTEP)["digest"]
+    assert first["digest"] != run(tmp_path / "other", *LOCKSTEP, "--seed", "2")["digest"]
     assert (first["loop"]["heap_allocations"], first["loop"]["telemetry_dropped"], first["bus"]["lost"]) == (0, 0, 0)
 
 
@@ -143,6 +144,12 @@ def test_wall_clock_run_on_socketcan_ends_without_a_fault_and_says_what_it_measu
 
 def test_bus_vm_is_the_same_run_with_its_folder_outside(udp_run, tmp_path):
     assert run(tmp_path, *LOCKSTEP, bus="vm")["digest"] == udp_run[1]["digest"]
+
+
+def test_python_can_reads_the_frames_of_a_run_folder(udp_run):
+    folder, _ = udp_run
+    read = [(f"{message.arbitration_id:03X}", message.data.hex().upper()) for message in can.LogReader(folder / "bus.log")]
+    assert len(read) > 10_000 and read == frames(folder / "bus.candump")
 
 
 def until_it_stops_growing(path):

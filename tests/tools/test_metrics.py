@@ -10,7 +10,7 @@ import pytest
 import synthetic_run as synthetic
 
 from reed_tools.errors import UsageError
-from reed_tools.figures import checks, metrics, report_page, result_table, summary
+from reed_tools.figures import checks, metrics, plots, report_page, result_table, summary
 from reed_tools.figures.evaluate import evaluate
 from reed_tools.record import signals
 from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
@@ -247,3 +247,16 @@ def test_a_log_of_two_different_arms_is_refused():
     two.num, two.p_hat, two.eta_hat = 1, [1.0], [1.0]
     with pytest.raises(RunError, match="not of one run"):
         decode_all(reed.adaptation_t, "adaptation_t", [one.encode(), two.encode()])
+
+
+@pytest.mark.parametrize("clock", ["wall", "lockstep"])
+def test_only_a_paced_loop_has_a_period(tmp_path, clock):
+    """In lockstep a cycle takes as long as the plant's answer does: nothing is late."""
+    folder = recorded(tmp_path, duration_s=1.0, clock=clock)
+    recording = load(folder / "telemetry.lcmlog")
+    figures, _ = summary.build(folder, recording)
+    figure = plots.timing(recording, figures)
+    dashed = [line for axis in figure.axes for line in axis.lines if line.get_linestyle() == "--"]
+    assert len(dashed) == (len(figure.axes) if clock == "wall" else 0)
+    assert ("period 1000" in figure.get_suptitle()) == (clock == "wall")
+    assert ("keeps no period" in result_table.timing(figures).title) == (clock == "lockstep")

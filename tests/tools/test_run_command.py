@@ -1,12 +1,16 @@
 """How a run starts and ends: bad input, exit statuses, Ctrl-C, buses. The two programs are stand-ins (conftest.py)."""
 
 import json
+import os
 import signal
+import subprocess
 import time
 
 import pytest
 
 from reed_tools import cli
+from reed_tools.errors import UsageError
+from reed_tools.paths import PYTHON, ROOT
 from reed_tools.run import bus_choice
 
 BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
@@ -147,6 +151,40 @@ def test_interrupting_stops_firmware_then_plant_and_writes_the_figures(reed, tmp
     assert json.loads((tmp_path / "summary.json").read_text())["cycles"] == 1100
 
 
+def test_a_killed_tool_leaves_no_program_behind(reed, tmp_path):
+    """Without the kernel's signal, which programs with file capabilities do not get."""
+    process = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
+    wait_for(tmp_path / "firmware.lcmlog")
+    process.kill()
+    process.communicate(timeout=60)
+    numbers = [int((tmp_path / f"{name}.pid").read_text()) for name in ("firmware", "plant")]
+    deadline = time.monotonic() + 30
+    while any(running(number) for number in numbers):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert sorted((tmp_path / "stopped").read_text().splitlines()) == ["firmware", "plant"]  # in order, not killed
+    with bus_choice.held(BUS):
+        pass
+
+
+def running(number: int) -> bool:
+    """A program that ended and that nobody waits for is still listed."""
+    try:
+        return bus_choice.Path(f"/proc/{number}/stat").read_text().rpartition(") ")[2][0] != "Z"
+    except OSError:
+        return False
+
+
+def test_programs_get_stacks_of_the_usual_size(reed, tmp_path):
+    """They lock their memory, and the caller's limit may be a gigabyte."""
+    for limit, found in (("1048576", 8 << 20), ("4096", 4 << 20)):
+        run = reed.command(["run", "--bus", BUS, "--out", tmp_path / limit])
+        done = subprocess.run(["bash", "-c", f'ulimit -Ss {limit}; exec "$@"', "bash", *run],
+                              env=reed.environment({}), capture_output=True, text=True)
+        assert done.returncode == 1, done.stderr
+        assert int((tmp_path / limit / "firmware.stack").read_text()) == found
+
+
 def test_a_bus_in_use_by_another_run_is_refused(reed, tmp_path):
     first = reed.start("run", "--bus", BUS, "--out", tmp_path, REED_FAKE_FIRMWARE="endless")
     try:
@@ -158,28 +196,63 @@ def test_a_bus_in_use_by_another_run_is_refused(reed, tmp_path):
         first.communicate(timeout=60)
 
 
-def test_another_users_lock_file_is_used_if_it_can_be_read_and_named_if_not(tmp_path, monkeypatch):
-    monkeypatch.setattr(bus_choice.tempfile, "gettempdir", lambda: str(tmp_path))
+def test_a_bus_is_held_by_its_name_whatever_the_files_and_users(tmp_path, monkeypatch):
+    """Another TMPDIR, a umask of 077 or a FIFO in /tmp make no difference, and a bus is free when its holder was killed."""
+    hold = ("import sys; sys.path.insert(0, sys.argv[1])\nfrom reed_tools.run import bus_choice\n"
+            "with bus_choice.held('udp:x:1'): print('held', flush=True); sys.stdin.read()")
+    first = subprocess.Popen([*PYTHON, "-c", hold, ROOT / "tools"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                             env={**os.environ, "TMPDIR": str(tmp_path)}, umask=0o077)
+    assert first.stdout.readline() == "held\n" and list(tmp_path.iterdir()) == []
+    with pytest.raises(UsageError, match="another run is using udp:x:1"), bus_choice.held("udp:x:1"):
+        pass
+    with bus_choice.held("udp:x:2"):
+        pass
+    first.kill()
+    first.communicate()
     with bus_choice.held("udp:x:1"):
         pass
-    (lock,) = tmp_path.iterdir()
-    lock.chmod(0o444)
-    with bus_choice.held("udp:x:1"), pytest.raises(bus_choice.UsageError, match="another run"), bus_choice.held("udp:x:1"):
-        pass
 
-    def refuse(*_):
-        raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(bus_choice.os, "open", refuse)
-    with pytest.raises(bus_choice.UsageError, match=f"{lock}: permission denied; .* remove it"), bus_choice.held("udp:x:1"):
-        pass
+@pytest.mark.parametrize("name", ["vcan%d", "can 0", "../lo", "", "a" * 16, "vcan0\n"])
+def test_what_is_no_name_of_an_interface_is_refused_before_anything_is_made(monkeypatch, name):
+    monkeypatch.setattr(bus_choice, "as_root", lambda command: pytest.fail(command))
+    with pytest.raises(UsageError, match="IFACE is the name of an interface"):
+        bus_choice.choose(f"socketcan:{name}")
+
+
+@pytest.mark.parametrize("may_be_made_up", [True, False])
+def test_an_interface_that_is_down_is_made_up_or_named(monkeypatch, may_be_made_up):
+    asked = []
+    monkeypatch.setattr(bus_choice, "kernel_has_can", lambda: True)
+    monkeypatch.setattr(bus_choice, "interface_exists", lambda name: True)
+    monkeypatch.setattr(bus_choice, "flags", lambda name: 0x1000 if name == "lo" else 0)
+    monkeypatch.setattr(bus_choice, "as_root", lambda command: asked.append(command) or may_be_made_up)
+    monkeypatch.setattr(bus_choice, "multicast_works", lambda: True)
+    assert bus_choice.choose("auto") == ("socketcan:vcan0" if may_be_made_up else "udp:239.74.163.2:43113")
+    assert asked == ["ip link set vcan0 up"]
+    if may_be_made_up:
+        assert bus_choice.choose("socketcan:vcan0") == "socketcan:vcan0"
+    for name in ("can0",) if may_be_made_up else ("can0", "vcan0"):
+        with pytest.raises(UsageError, match=f"{name} is down; as root: ip link set {name} up"):
+            bus_choice.choose(f"socketcan:{name}")
 
 
 def test_a_missing_multicast_route_is_told_with_its_fix(monkeypatch):
     monkeypatch.setattr(bus_choice, "multicast_works", lambda: False)
     monkeypatch.setattr(bus_choice, "as_root", lambda command: False)
-    with pytest.raises(bus_choice.UsageError, match="ip route add 224.0.0.0/4 dev lo"):
+    with pytest.raises(UsageError, match="ip link set lo up multicast on && ip route add 224.0.0.0/4 dev lo"):
         bus_choice.choose("udp")
+
+
+@pytest.mark.skipif(subprocess.run(["unshare", "-rn", "true"], capture_output=True).returncode != 0, reason="no network of one's own here")
+def test_the_fix_works_where_the_loopback_is_down_and_where_half_of_it_is_done():
+    """In a network of its own, whose lo is down and has no route."""
+    mend = ("import sys; sys.path.insert(0, sys.argv[1])\nfrom reed_tools.run import bus_choice\n"
+            "assert not bus_choice.multicast_works()\nbus_choice.as_root(bus_choice.ROUTE_FIX[int(sys.argv[2])])\n"
+            "print(bus_choice.choose('udp'))")
+    for first in (0, 1):
+        done = subprocess.run(["unshare", "-rn", *PYTHON, "-c", mend, ROOT / "tools", str(first)], capture_output=True, text=True)
+        assert (done.returncode, done.stdout) == (0, "udp:239.74.163.2:43113\n"), done.stderr
 
 
 def test_auto_prefers_vcan_and_falls_back_to_udp(monkeypatch):

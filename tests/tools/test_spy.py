@@ -48,7 +48,7 @@ def test_shows_every_channel_with_rate_fields_and_plot(telemetry, tmp_path):
     command[command.index("-cp") + 1] += f":{tmp_path}"
     command[-1] = "SpyProbe"
     picture = BUILD / "spy" / "spy.png"
-    done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x900x24", *command, "REED_CONTROL", "5", str(picture)],
+    done = subprocess.run(["timeout", "-k", "5", "110", "xvfb-run", "-a", "-s", "-screen 0 1280x900x24", *command, "REED_CONTROL", "5", str(picture)],
                           env={**os.environ, "LCM_DEFAULT_URL": URL}, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     lines = [line.split("\t") for line in done.stdout.splitlines()]

@@ -1,9 +1,12 @@
 """The small VM itself: streams, statuses, limits, Ctrl-C, and that it leaves nothing behind."""
 
 import os
+import shutil
 import signal
 import subprocess
 import time
+
+import pytest
 
 from reed_tools.run import vm
 
@@ -41,6 +44,21 @@ def test_time_limit_is_status_124_and_interrupt_reaches_the_command():
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=60)[0] == "caught\n"
     assert process.returncode == 5
+
+
+@pytest.mark.parametrize("folder", ["two words", 'a "quoted" one', "/run/reed-test", "/dev/shm/reed-test"])
+def test_works_wherever_temporary_files_and_the_checkout_are(tmp_path, folder):
+    """The kernel's command line ends at blanks, and the guest has a /run and a /dev/shm of its own."""
+    scratch = tmp_path / folder  # an absolute folder stays itself
+    scratch.mkdir(parents=True)
+    try:
+        launcher = shutil.copytree(vm.VM.parent, tmp_path / "check out" / "vm") / "vm"
+        done = subprocess.run([launcher, "--", "bash", "-c", 'printf %s "$TMPDIR"; exit 7'], env={**os.environ, "TMPDIR": str(scratch)},
+                              capture_output=True, text=True, timeout=120)
+        assert (done.returncode, done.stdout) == (7, str(scratch)), done.stderr
+        assert list(scratch.iterdir()) == []
+    finally:
+        shutil.rmtree(scratch)
 
 
 def test_leaves_nothing_behind(tmp_path):

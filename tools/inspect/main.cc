@@ -52,7 +52,6 @@ int main(int argc, char** argv) {
   app.add_option("--at", pose, "motor angles for --modes, rad (default: all zero)")->delimiter(',');
   app.add_option("--beam", beam,
                  "modes of a clamped beam: length=m,EI=N·m²,rhoA=kg/m[,tip_mass=kg][,elements=N]");
-  app.footer("tools/reed inspect --arm X --plot [FILE] [--modes N] [--at ...] draws the modes' answer.");
   try {
     app.parse(argc, argv);
     if (arm.empty() == beam.empty()) throw reed::inspect::CaseError("one of --arm and --beam is needed");

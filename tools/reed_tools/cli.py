@@ -3,9 +3,13 @@ pass_through(argv) when another program reads the options. Only the module of th
 
 import argparse
 import importlib
+import os
 import sys
+import traceback
+from pathlib import Path
 
 from reed_tools.errors import ReedError, RunError, UsageError
+from reed_tools.text import did_you_mean, one_line
 
 COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
@@ -27,28 +31,39 @@ class OneLineParser(argparse.ArgumentParser):
     """Says what is wrong in one line; the page of usage is what --help is for."""
 
     def error(self, message: str):
-        raise UsageError(f"{message} (see `{self.prog} --help`)")
+        unknown = message.partition("unrecognized arguments: ")[2].split()
+        options = [option for action in self._actions for option in action.option_strings]
+        hint = did_you_mean(unknown[0].partition("=")[0], options) if unknown and unknown[0].startswith("-") else ""
+        raise UsageError(f"{message}{hint} (see `{self.prog} --help`)")
 
 
 def overview() -> str:
     rows = "\n".join(f"  {name:<9}{text}" for name, (_, text) in COMMANDS.items())
-    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more."
+    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more; --version says which Reed this is."
 
 
 def main(argv: list[str]) -> int:
     try:
         return dispatch(argv)
     except ReedError as error:
-        print(f"reed: {error}", file=sys.stderr)
-        return error.exit_status
+        return complain(str(error), error.exit_status)
+    except SystemExit as done:  # --help
+        return done.code or 0
     except KeyboardInterrupt:
         print("reed: interrupted", file=sys.stderr)
         return 130
-    except BrokenPipeError:
-        return 0
     except OSError as error:  # a disk that is full, a folder without rights: nothing of ours to mend
-        print(f"reed: {f'{error.filename}: ' if error.filename else ''}{(error.strerror or str(error)).lower()}", file=sys.stderr)
-        return RunError.exit_status
+        where = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
+        return complain(where + (error.strerror or str(error)).lower(), RunError.exit_status)
+    except Exception as error:  # a mistake of ours: one line that says what and where
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        return complain(f"internal error, {type(error).__name__} at {Path(place.filename).name}:{place.lineno}: {error}",
+                        RunError.exit_status)
+
+
+def complain(text: str, status: int) -> int:
+    print(f"reed: {one_line(text)}", file=sys.stderr)
+    return status
 
 
 def dispatch(argv: list[str]) -> int:
@@ -56,12 +71,21 @@ def dispatch(argv: list[str]) -> int:
         print(overview())
         return 0
     name, rest = argv[0], argv[1:]
+    if name == "--version" or (name in COMMANDS and "--version" in rest):
+        print(version())
+        return 0
     if name not in COMMANDS:
-        raise UsageError(f"unknown command `{name}`; commands: {', '.join(COMMANDS)}")
+        raise UsageError(f"unknown command `{name}`{did_you_mean(name, COMMANDS)}; commands: {', '.join(COMMANDS)}")
     module = module_of(name)
     if hasattr(module, "pass_through"):
         return module.pass_through(rest)
     return module.run(parser_of(name).parse_args(rest))
+
+
+def version() -> str:
+    from reed_tools import versions  # asks git: only when it is asked for
+
+    return f"reed {versions.reed()}, commit {versions.commit() or 'unknown: no git, or no checkout of this user'}"
 
 
 def module_of(name: str):

@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release")).resolve()
 SCENARIOS = ROOT / "config" / "scenarios"
 ARMS = ROOT / "config" / "arms"
+PYTHON = (sys.executable, "-I", "-X", "utf8")  # the caller's environment does not reach it
 
 
 def program(name: str) -> Path:

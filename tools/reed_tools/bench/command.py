@@ -1,14 +1,14 @@
 """tools/reed bench: the timing budget's figures beside what they are compared with, in one run; ratios first."""
 
 import json
-import time
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.bench import embedded, loop, plant, plot, rates, rows, steps, wake
 from reed_tools.bench.machine import Machine
 from reed_tools.bench.rows import Found, Row
 from reed_tools.errors import ReedError, UsageError
-from reed_tools.paths import ROOT
+from reed_tools.text import did_you_mean
 
 
 def cortex_m7(_arguments, folder) -> Found:
@@ -38,16 +38,12 @@ def add_arguments(parser) -> None:
     parser.add_argument("--processes", type=int, metavar="N", help="fresh processes per figure in nanoseconds; default 6, quick 2")
     parser.add_argument("--slice", type=int, metavar="S", help="seconds per slice of wake-up latency; default 10, quick 2")
     parser.add_argument("--slices", type=int, metavar="N", help="alternating slices per side; default 3, quick 1")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder for bench.json and bench.png; default out/<time>-bench")
+    parser.add_argument("--out", type=folders.argument, metavar="DIR", help="folder for bench.json and bench.png; default out/<time>-bench")
 
 
 def run(arguments) -> int:
     settle(arguments)
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-bench"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"--out {folder}: {error.strerror}") from None
+    folder = folders.fresh(arguments.out, "bench", ("bench.json", "bench.png"), "a benchmark already; remove it or choose another folder")
     machine, all_found = Machine(), Found()
     print(machine.text(), flush=True)
     for name in arguments.only or MEASURES:
@@ -71,7 +67,7 @@ def settle(arguments) -> None:
             raise UsageError(f"--{name} {value}: allowed are 1 and more")
     for name in arguments.only:
         if name not in MEASURES:
-            raise UsageError(f"bench {name}: there are {', '.join(MEASURES)}")
+            raise UsageError(f"bench {name}: there is no such measurement{did_you_mean(name, MEASURES)}; there are {', '.join(MEASURES)}")
 
 
 def tell(found: Found, machine: Machine, folder: Path) -> None:

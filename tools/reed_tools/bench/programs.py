@@ -18,10 +18,10 @@ WRITES_LAST = 300
 
 def build(*targets: str) -> None:
     """Says so first: some of them take minutes."""
-    if "no work to do" in subprocess.run(["ninja", "-C", str(BUILD), "-n", *targets], capture_output=True, text=True).stdout:
+    if "no work to do" in subprocess.run(["ninja", "-C", str(BUILD), "-n", *targets], capture_output=True, text=True, errors="replace").stdout:
         return
     print(f"  building {' '.join(targets)}", flush=True)
-    done = subprocess.run(["ninja", "-C", str(BUILD), *targets], capture_output=True, text=True)
+    done = subprocess.run(["ninja", "-C", str(BUILD), *targets], capture_output=True, text=True, errors="replace")
     if done.returncode:
         raise RunError(f"{' '.join(targets)} did not build: {done.stdout[-WRITES_LAST:]}")
 
@@ -32,7 +32,7 @@ def build_pinocchio() -> str | None:
     prefix = Path(found.origin).parents[4] if found and found.origin else None
     if prefix is None or not (prefix / "include" / "pinocchio").is_dir():
         return "Pinocchio's C++ is missing, no comparison of steps: build/venv/bin/pip install pin==4.1.0"
-    done = subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), f"-DREED_PINOCCHIO={prefix}"], capture_output=True, text=True)
+    done = subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), f"-DREED_PINOCCHIO={prefix}"], capture_output=True, text=True, errors="replace")
     if done.returncode:
         return f"Pinocchio's side was not configured: {done.stderr[-WRITES_LAST:]}"
     try:
@@ -43,7 +43,7 @@ def build_pinocchio() -> str | None:
 
 
 def output(command: list[str]) -> str:
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
     if done.returncode:
         raise RunError(f"{Path(command[0]).name} ended with status {done.returncode}: {(done.stderr or done.stdout).strip()[-WRITES_LAST:]}")
     return done.stdout
@@ -91,7 +91,7 @@ def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, .
             raise RunError(f"the plant did not start: {' '.join(map(str, arm.args))}")
         cpu_before, started = os.times(), time.monotonic()
         firmware = subprocess.run([*under, str(program("reed_firmware")), *common, "--enable", "--log", str(log)],
-                                  capture_output=True, text=True)
+                                  capture_output=True, text=True, errors="replace")
         wall_s, cpu_after = time.monotonic() - started, os.times()
     finally:
         arm.send_signal(signal.SIGINT)

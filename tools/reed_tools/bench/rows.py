@@ -3,7 +3,9 @@
 import math
 from dataclasses import dataclass, field
 
-from reed_tools.show.tables import console, grid
+from rich.text import Text
+
+from reed_tools.show.tables import console, grid, mark
 
 
 @dataclass
@@ -66,8 +68,8 @@ def show(rows: list[Row]) -> None:
         aim = f"{'≤' if row.less_is_better else '≥'} {row.aim:g}" if row.aim is not None else ""
         if row.aim is not None and not row.other:
             aim += f" {row.unit}"
-        verdict = {True: "[green]ok[/]", False: "[bold red]no[/]", None: ""}[row.ok]
-        what = f"{row.what}\n[dim]  beside {row.other}[/]" if row.other else row.what
+        verdict = "" if row.ok is None else mark(row.ok, bad="no")
+        what = Text.assemble(row.what, (f"\n  beside {row.other}", "dim")) if row.other else row.what
         table.add_row(f"{row.ratio:.2f}" if row.ratio is not None else "–", aim, verdict, what, f"{figure(row.ours)} {row.unit}",
                       f"{figure(row.theirs)} {row.unit}" if row.theirs is not None else "–")
     console().print(table)

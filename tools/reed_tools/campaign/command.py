@@ -4,18 +4,20 @@ import json
 import os
 import re
 import shutil
-import time
 from contextlib import ExitStack
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
-from reed_tools.campaign.definition import Campaign
+from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
 from reed_tools.campaign.workers import Workers, build_id, free_bus
 from reed_tools.errors import RunError, UsageError
-from reed_tools.paths import ROOT
 from reed_tools.run import bus_choice
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
+OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
+MOST_JOBS, MOST_REPEATS = 1024, 1000
+WHOLE = {"draws": (1, MOST_DRAWS), "first": (0, MOST_DRAWS), "count": (1, MOST_DRAWS), "jobs": (1, MOST_JOBS), "repeat": (0, MOST_REPEATS)}
 SELECTION = ("draws", "first", "count", "shard")
 
 
@@ -31,19 +33,19 @@ def add_arguments(parser) -> None:
     parser.add_argument("--jobs", type=int, metavar="N", help="draws at a time; default: one per core")
     parser.add_argument("--repeat", type=int, default=2, metavar="K", help="run the K worst draws twice and compare; default %(default)s")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--out", type=Path, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
-    where.add_argument("--resume", type=Path, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
+    where.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
+    where.add_argument("--resume", type=folders.argument, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
 
 
 def run(arguments) -> int:
-    for option, least in (("draws", 1), ("first", 0), ("count", 1), ("jobs", 1), ("repeat", 0)):
+    for option, (least, most) in WHOLE.items():
         value = getattr(arguments, option)
-        if value is not None and value < least:
-            raise UsageError(f"--{'from' if option == 'first' else option} {value}: allowed: a whole number from {least}")
+        if value is not None and not least <= value <= most:
+            raise UsageError(f"--{'from' if option == 'first' else option} {value}: allowed: a whole number from {least} to {most}")
     folder, campaign, indices = resumed(arguments) if arguments.resume else begun(arguments)
     finished = {record.index: record for record in draws.read(folder, campaign.definition())}
     pending = [index for index in indices if index not in finished]
-    jobs = arguments.jobs or os.cpu_count()
+    jobs = arguments.jobs or len(os.sched_getaffinity(0))
     print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
     bus_choice.require_multicast_route()
     with ExitStack() as stack:
@@ -59,11 +61,9 @@ def begun(arguments) -> tuple[Path, Campaign, list[int]]:
     options = {"seed": arguments.seed, "set": arguments.set or [], **{key: getattr(arguments, key) for key in SELECTION}}
     campaign = definition.load(source, options["seed"], tuple(options["set"]))
     indices = selected(campaign, options)
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-campaign-{campaign.name}"
-    if (folder / draws.FILE).exists():
-        raise UsageError(f"--out {folder}: holds a campaign already; --resume {folder} goes on with it")
+    folder = folders.fresh(arguments.out, f"campaign-{campaign.name}", OWN_FILES,
+                           f"a campaign already; --resume {arguments.out} goes on with it")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, folder / "campaign.toml")
         (folder / OPTIONS).write_text(json.dumps(options, indent=2) + "\n")
     except OSError as error:
@@ -78,7 +78,8 @@ def resumed(arguments) -> tuple[Path, Campaign, list[int]]:
         raise UsageError("--resume goes on with the folder's own campaign, seed and --set; leave them out")
     if not (folder / OPTIONS).is_file():
         raise UsageError(f"--resume {folder}: there is no campaign ({OPTIONS} is missing)")
-    options = json.loads((folder / OPTIONS).read_text())
+    folders.hold(folder)
+    options = read_options(folder / OPTIONS)
     asked = {key: getattr(arguments, key) for key in SELECTION if getattr(arguments, key) is not None}
     if asked:
         options.update({key: asked.get(key) for key in SELECTION})
@@ -86,12 +87,26 @@ def resumed(arguments) -> tuple[Path, Campaign, list[int]]:
     return folder, campaign, selected(campaign, options)
 
 
+def read_options(path: Path) -> dict:
+    """What begun() wrote, or a line about what is wrong with it."""
+    try:
+        options = json.loads(path.read_bytes())
+        seed, entries, shard = (options[key] for key in ("seed", "set", "shard"))
+        numbers = [(options[key], *WHOLE[key]) for key in ("draws", "first", "count")]
+    except (ValueError, RecursionError, TypeError, KeyError):
+        raise UsageError(f"{path}: damaged: it is not what the campaign wrote there") from None
+    whole = all(value is None or type(value) is int and least <= value <= most for value, least, most in [*numbers, (seed, 0, LARGEST)])
+    if not whole or not isinstance(shard, str | None) or not isinstance(entries, list) or not all(isinstance(entry, str) for entry in entries):
+        raise UsageError(f"{path}: damaged: a value is not of the kind that the campaign wrote there")
+    return options
+
+
 def selected(campaign: Campaign, options: dict) -> list[int]:
     first = options["first"] or 0
     end = first + options["count"] if options["count"] else options["draws"] or campaign.draws
     indices = list(range(first, end))
     if options["shard"]:
-        match = re.fullmatch(r"(\d+)/(\d+)", options["shard"])
+        match = re.fullmatch(r"([0-9]{1,7})/([0-9]{1,7})", options["shard"])
         part, parts = (int(text) for text in match.groups()) if match else (0, 0)
         if not 1 <= part <= parts:
             raise UsageError(f"--shard {options['shard']}: allowed: I/N with I from 1 to N")

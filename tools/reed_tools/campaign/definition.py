@@ -4,6 +4,7 @@ A draw is its list of overrides, and follows from (campaign seed, index) alone: 
 
 import hashlib
 import math
+import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,12 +12,15 @@ from pathlib import Path
 from reed_tools.errors import UsageError
 from reed_tools.figures import checks
 from reed_tools.paths import ROOT
+from reed_tools.text import did_you_mean
 
 CAMPAIGNS = ROOT / "config" / "campaigns"
 DISTRIBUTIONS = ("uniform", "log_uniform", "integer", "choice")
 SECTIONS = {"campaign": {"name", "description", "scenario", "draws", "seed"},
             "limits": {"stable_percent", "within_percent", "worst_ratio"}, "stable": set(checks.FIGURES)}
 LIMITS = {"stable_percent": 100.0, "within_percent": 95.0, "worst_ratio": 2.0}
+MOST_DRAWS = 1_000_000
+LARGEST = 2**53  # every whole number up to here is a double too
 SIGNIFICANT_DIGITS = 6  # a drawn number is what its text says: the command line that repeats it is exact
 
 
@@ -92,49 +96,67 @@ def find(name_or_path: str) -> Path:
     if "/" in name_or_path or name_or_path.endswith(".toml"):
         path = Path(name_or_path)
     if not path.is_file():
-        names = ", ".join(sorted(file.stem for file in CAMPAIGNS.glob("*.toml")))
-        raise UsageError(f"campaign {name_or_path}: {path} is not there; config/campaigns has: {names}")
+        names = sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
+        raise UsageError(f"campaign {name_or_path}: {path} is not there{did_you_mean(name_or_path, names)}; "
+                         f"config/campaigns has: {', '.join(names)}")
     return path
 
 
 def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Campaign:
     """`seed` and `extra` (KEY=VALUE) come from the command line and win over the file."""
-    text = path.read_text()
     try:
+        text = path.read_text(encoding="utf-8")
         tree = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, numbers of thousands of digits, brackets without end
         raise UsageError(f"{path}: not TOML: {error}") from None
-    for section in tree:
+    for section, content in tree.items():
         if section not in (*SECTIONS, "set", "draw"):
             raise UsageError(f"{path}: {section}: unknown section; allowed: campaign, limits, stable, set, draw")
+        tables = content if section == "draw" else [content]
+        if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
+            raise UsageError(f"{path}: {section}: expected {'[[draw]] tables' if section == 'draw' else f'a table [{section}]'}")
     for section, keys in SECTIONS.items():
         for key in tree.get(section, {}):
             if key not in keys:
-                raise UsageError(f"{path}: {section}.{key}: unknown key; allowed: {', '.join(sorted(keys))}")
+                raise UsageError(f"{path}: {section}.{key}: unknown key{did_you_mean(key, keys)}; allowed: {', '.join(sorted(keys))}")
     head = tree.get("campaign", {})
     for key in ("name", "scenario", "draws"):
         if key not in head:
             raise UsageError(f"{path}: campaign.{key}: missing")
     listed = [read_drawn(path, entry, position) for position, entry in enumerate(tree.get("draw", []))]
     given = {entry.partition("=")[0] for entry in extra}
-    fixed = [f"{key}={text_of(value)}" for key, value in tree.get("set", {}).items()]
-    return Campaign(head["name"], head.get("description", ""), head["scenario"],
-                    whole(path, "campaign.draws", head["draws"], 1),
+    fixed = [f"{key}={text_of(setting(path, key, value))}" for key, value in tree.get("set", {}).items()]
+    return Campaign(name(path, "campaign.name", head["name"]), name(path, "campaign.description", head.get("description", "")),
+                    name(path, "campaign.scenario", head["scenario"]),
+                    whole(path, "campaign.draws", head["draws"], 1, MOST_DRAWS),
                     whole(path, "campaign.seed", head.get("seed", 1) if seed is None else seed, 0),
                     {key: number(path, f"limits.{key}", tree.get("limits", {}).get(key, standard))
                      for key, standard in LIMITS.items()},
-                    [{"name": name, "limit": number(path, f"stable.{name}", limit)} for name, limit in tree.get("stable", {}).items()],
+                    [{"name": key, "limit": number(path, f"stable.{key}", limit)} for key, limit in tree.get("stable", {}).items()],
                     (*fixed, *extra), tuple(drawn for drawn in listed if drawn.key not in given), text)
 
 
-def whole(path: Path, key: str, value, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise UsageError(f"{path}: {key} = {value}: allowed: a whole number from {least}")
+def name(path: Path, key: str, value) -> str:
+    """Text that fits a line; it is shown on terminals, in pages and in XML."""
+    if not isinstance(value, str) or not value.isprintable():
+        raise UsageError(f"{path}: {key} = {value!r}: expected text on one line, without control characters")
+    return value
+
+
+def setting(path: Path, key: str, value):
+    if isinstance(value, dict):
+        raise UsageError(f"{path}: set.{key}: expected a value; a key with dots stands in quotes, like \"wall.friction\" = 0.2")
+    return value
+
+
+def whole(path: Path, key: str, value, least: int, most: int = LARGEST) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+        raise UsageError(f"{path}: {key} = {value}: allowed: a whole number from {least} to {most}")
     return value
 
 
 def number(path: Path, key: str, value) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
         raise UsageError(f"{path}: {key} = {value}: expected a number")
     return value
 
@@ -155,9 +177,9 @@ def read_drawn(path: Path, entry: dict, position: int) -> Drawn:
         if not low < high or (kind == "log_uniform" and low <= 0):
             raise UsageError(f"{where}.{kind} = {support}: allowed: [low, high] with {'0 < ' if kind == 'log_uniform' else ''}low < high")
         if kind == "integer":
-            support = [whole(path, f"draw[{position}].integer", value, -2**53) for value in support]
+            support = [whole(path, f"draw[{position}].integer", value, -LARGEST) for value in support]
     for base in times if isinstance(times, list) else [] if times is None else [times]:
         number(path, f"draw[{position}].times", base)
-    if times is not None and kind == "choice" and not all(isinstance(value, (int, float)) for value in support):
+    if times is not None and kind == "choice" and not all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in support):
         raise UsageError(f"{where}.times: multiplies numbers, and the choice has others")
     return Drawn(entry["key"], kind, support, times)

@@ -30,6 +30,11 @@ class Record:
                 and all(check["ok"] for check in self.stability))
 
     @property
+    def seed(self) -> str:
+        """Of the draw's run; "" where the scenario's own counts."""
+        return next((entry.partition("=")[2] for entry in reversed(self.overrides) if entry.startswith("scenario.seed=")), "")
+
+    @property
     def within(self) -> bool:
         return self.stable and all(check["ok"] for check in self.checks)
 
@@ -67,6 +72,20 @@ def command(scenario: str, record: Record) -> str:
     return shlex.join(words)
 
 
+def valid(record: Record) -> bool:
+    """Whether every field is of its kind: the file may have been written by hand, or been damaged."""
+    texts = (record.definition, record.build, record.status, record.message, record.digest)
+    lists = (record.overrides, record.checks, record.stability)
+    return (type(record.index) is int and all(isinstance(text, str) for text in texts) and all(isinstance(entry, list) for entry in lists)
+            and all(isinstance(entry, str) and "=" in entry for entry in record.overrides)
+            and all(valid_check(check) for check in (*record.checks, *record.stability)))
+
+
+def valid_check(check) -> bool:
+    return (isinstance(check, dict) and isinstance(check.get("name"), str) and type(check.get("limit")) in (int, float)
+            and type(check.get("value")) in (int, float, type(None)) and isinstance(check.get("ok"), bool))
+
+
 def append(folder: Path, record: Record) -> None:
     with open(folder / FILE, "a") as file:
         file.write(json.dumps(asdict(record), allow_nan=False) + "\n")
@@ -76,16 +95,18 @@ def read(folder: Path, definition: str) -> list[Record]:
     """Finished draws by index. A last line that was being written when the machine stopped is dropped from the file;
     draws in which a program died are run again."""
     path = folder / FILE
-    text = path.read_text() if path.exists() else ""
-    complete = text[:text.rfind("\n") + 1]
-    if complete != text:
-        path.write_text(complete)
+    content = path.read_bytes() if path.exists() else b""
+    complete = content[:content.rfind(b"\n") + 1]
+    if complete != content:
+        path.write_bytes(complete)
     found = {}
-    for position, line in enumerate(complete.splitlines(), 1):
+    for position, line in enumerate(complete.split(b"\n")[:-1], 1):
         try:
             record = Record(**json.loads(line))
-        except (ValueError, TypeError):
-            raise UsageError(f"{path}:{position}: not a draw's record") from None
+        except (ValueError, TypeError, RecursionError):
+            record = None
+        if record is None or not valid(record):
+            raise UsageError(f"{path}:{position}: not a draw's record")
         if record.definition != definition:
             raise UsageError(f"{path}:{position}: a draw of another campaign than {folder / 'campaign.toml'} with its seed and --set")
         if record.status != "died":

@@ -8,6 +8,7 @@ from pathlib import Path
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record, command
 from reed_tools.campaign.verdicts import Verdict
+from reed_tools.text import plain
 
 FILE = "junit.xml"
 
@@ -24,11 +25,12 @@ def write(folder: Path, campaign: Campaign, records: list[Record], verdict: Verd
             xml.SubElement(case, "failure", message=f"other digests in draws {', '.join(map(str, verdict.different))}")
     for record in records:
         case = xml.SubElement(suite, "testcase", classname=f"campaign.{campaign.name}.draw", name=f"draw {record.index}")
-        xml.SubElement(case, "system-out").text = f"worst ratio {record.ratio:.3f}, digest {record.digest}\n{command(campaign.scenario, record)}"
+        xml.SubElement(case, "system-out").text = plain(
+            f"worst ratio {record.ratio:.3f}, digest {record.digest}\n{command(campaign.scenario, record)}", keep="\n")
         if record.status == "died":
-            xml.SubElement(case, "error", message=record.message)
+            xml.SubElement(case, "error", message=plain(record.message))
         elif not record.stable or record.ratio > campaign.limits["worst_ratio"]:
-            xml.SubElement(case, "failure", message=reason(record))
+            xml.SubElement(case, "failure", message=plain(reason(record)))
     cases = suite.findall("testcase")
     suite.set("tests", str(len(cases)))
     suite.set("failures", str(sum(case.find("failure") is not None for case in cases)))

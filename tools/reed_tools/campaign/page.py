@@ -30,8 +30,8 @@ def worst(summary: dict) -> str:
         why = draw["deciding"]
         told = f"{why['name']} = {number(why['value'])} (limit {number(why['limit'])})" if why else ""
         ratio = number(draw["ratio"], 3) if draw["ratio"] is not None else "∞"
-        seed = next((word for flag, word in zip(draw["command"].split(), draw["command"].split()[1:]) if flag == "--seed"), "")
-        rows.append(f"<tr><td>{draw['index']}</td><td>{seed}</td><td>{ratio}</td><td>{html.escape(draw['message'] or told)}</td></tr>"
+        cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in (draw["index"], draw["seed"], ratio, draw["message"] or told))
+        rows.append(f"<tr>{cells}</tr>"
                     f'<tr><td colspan="4"><pre>{html.escape(draw["command"])}</pre></td></tr>')
     return ("<table><thead><tr><th>draw</th><th>seed</th><th>ratio</th><th>deciding</th></tr></thead><tbody>\n" + "\n".join(rows)
             + "\n</tbody></table>")
@@ -41,7 +41,7 @@ def write(folder: Path, summary: dict, definition_text: str, pictures: list[Path
     title = html.escape(f"campaign {summary['campaign']}")
     head = (f'<h1>{title}: <span class="{summary["verdict"]}">{summary["verdict"]}</span></h1>'
             f"<p>{summary['finished']} of {summary['draws']} draws of {html.escape(summary['scenario'])}, campaign seed {summary['seed']}, "
-            f"lockstep<br>programs {', '.join(summary['builds'])}, definition {summary['definition'][:16]}</p>")
+            f"lockstep<br>programs {html.escape(', '.join(summary['builds']))}, definition {summary['definition'][:16]}</p>")
     shown = "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)
     sections = [("Limits", limits(summary)), ("Figures", figures(summary)), ("Distributions", shown),
                 ("Worst draws, ready to run again", worst(summary)), ("Definition", f"<pre>{html.escape(definition_text)}</pre>")]

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from reed_tools.campaign import results
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
-from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plt, set_margins
+from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plt, set_margins, ticker
 
 BINS = 30
 SHOWN_RATIO = 3.0   # figures beyond so many limits are drawn at the right edge
@@ -81,7 +80,7 @@ def causes(campaign: Campaign, records: list[Record]):
             axis.plot(column[rows_shown], bounded[rows_shown], mark, color=colour, markersize=4)
         axis.axhline(1.0, color=COLOURS[1], linestyle="--", linewidth=0.9)
         axis.set_xlabel(key)
-        axis.xaxis.set_major_locator(MaxNLocator(4))
+        axis.xaxis.set_major_locator(ticker.MaxNLocator(4))
         axis.set_ylim(0.0, max(1.1, 1.05 * bounded.max()))
     for axis in list(axes.flat)[len(quantities):]:
         axis.set_axis_off()

@@ -41,7 +41,7 @@ def shown(name: str, total: int):
 def bar(name: str, tally: Tally):
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    with Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[tally]}"),
+    with Progress(TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[tally]}"),
                   TimeRemainingColumn(), transient=True) as progress:
         task = progress.add_task(name, total=tally.total, tally="")
 

@@ -31,7 +31,7 @@ def build(campaign: Campaign, records: list[Record], wanted: int, verdict: Verdi
         "different": verdict.different,
         "figures": [distribution(name, limit, records) for name, limit in checked(records)],
         "worst": [{"index": record.index, "ratio": finite(record.ratio), "status": record.status, "message": record.message,
-                   "deciding": record.deciding, "digest": record.digest, "command": command(campaign.scenario, record)}
+                   "deciding": record.deciding, "digest": record.digest, "seed": record.seed, "command": command(campaign.scenario, record)}
                   for record in worst_first(records)[:WORST_SHOWN]],
     }
 

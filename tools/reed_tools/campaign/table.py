@@ -1,6 +1,9 @@
 """A campaign's result on the terminal: limits, figures, the worst draw's command."""
 
-from reed_tools.show.tables import console, grid, number
+from rich.text import Text
+
+from reed_tools.show.tables import console, grid, mark, number
+from reed_tools.text import plain
 
 
 def show(summary: dict) -> None:
@@ -12,10 +15,11 @@ def show(summary: dict) -> None:
     limits = grid("limits", "of the campaign", "value", "limit", "")
     for line in summary["limits"]:
         limits.add_row(line["name"], number(line["value"]) if line["value"] is not None else "∞", number(line["limit"]),
-                       "[green]ok[/]" if line["ok"] else "[bold red]FAIL[/]")
+                       mark(line["ok"]))
     out.print(limits)
     out.print(f"repeated  {summary['repeated']} draws a second time, {len(summary['different'])} differ", highlight=False)
     worst = summary["worst"][0]
-    out.print(f"worst   draw {worst['index']}: {worst['command']}", soft_wrap=True, highlight=False)
+    out.print(plain(f"worst   draw {worst['index']}: {worst['command']}"), soft_wrap=True, highlight=False)
     passed = summary["verdict"] == "pass"
-    out.print(f"campaign {summary['campaign']}: [bold {'green' if passed else 'red'}]{summary['verdict'].upper()}[/]", highlight=False)
+    out.print(f"campaign {summary['campaign']}: ", Text(summary["verdict"].upper(), f"bold {'green' if passed else 'red'}"), sep="",
+              highlight=False)

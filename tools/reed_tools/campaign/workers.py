@@ -10,7 +10,7 @@ from pathlib import Path
 
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
-from reed_tools.errors import ReedError, UsageError
+from reed_tools.errors import ReedError, RunError, UsageError
 from reed_tools.paths import program
 from reed_tools.run import bus_choice, hil, scenario
 
@@ -135,7 +135,8 @@ class Workers:
                 if record is None:
                     break
                 self.results.put(record)
-        except (ReedError, OSError) as error:
+        except Exception as error:
             if not self.stopping.is_set():  # a Ctrl-C reaches reed_config too
-                self.results.put(error)
+                known = isinstance(error, (ReedError, OSError))
+                self.results.put(error if known else RunError(f"internal error, {type(error).__name__}: {error}"))
         self.results.put(None)

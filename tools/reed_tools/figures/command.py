@@ -1,7 +1,6 @@
 """tools/reed report RUN_DIR: figures, plots and page from what a run folder holds."""
 
-from pathlib import Path
-
+from reed_tools import folders
 from reed_tools.errors import UsageError
 from reed_tools.figures import result_table
 from reed_tools.figures.evaluate import evaluate
@@ -9,7 +8,7 @@ from reed_tools.record.telemetry_log import require_whole
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("run_dir", metavar="RUN_DIR", type=Path, help="a folder that tools/reed run wrote")
+    parser.add_argument("run_dir", metavar="RUN_DIR", type=folders.argument, help="a folder that tools/reed run wrote")
 
 
 def run(arguments) -> int:

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import NullLocator
 
 from reed_tools.figures import lyapunov, lyapunov_plot
 from reed_tools.record.signals import SOURCES, Signals
 from reed_tools.record.telemetry_log import Recording
-from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins
+from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins, ticker
 
 TIME = "time since the arm became active [s]"
 
@@ -147,24 +146,25 @@ def timing(recording: Recording, summary: dict):
     """One histogram per phase on common logarithmic axes, with its 99th percentile."""
     table = recording.tables["REED_TIMING"]
     names = [name for name, figures in summary["timing_us"].items() if figures]
-    period_us = 1e6 / summary["rate_hz"]
+    period_us, paced = 1e6 / summary["rate_hz"], summary["clock"] != "lockstep"
     shortest, longest = (1e-3 * function([function(table[f"{name}_ns"]) for name in names]) for function in (np.min, np.max))
-    bins = np.geomspace(max(0.5 * shortest, 0.1), max(2 * period_us, longest, 1.0), 140)
+    bins = np.geomspace(max(0.5 * shortest, 0.1), max(2 * period_us * paced, longest, 1.0), 140)
     figure, axes = panels(len(names), 1.2 * len(names) + 0.8)
     set_margins(figure, top_in=0.6, hspace=0.34)
     for axis, name, colour in zip(axes, names, COLOURS):
         values = np.clip(table[f"{name}_ns"] * 1e-3, bins[0], None)
         axis.hist(values, bins=bins, color=colour)
-        axis.axvline(period_us, color="black", linestyle="--", linewidth=0.8)
+        if paced:
+            axis.axvline(period_us, color="black", linestyle="--", linewidth=0.8)
         figures = summary["timing_us"][name]
         axis.axvline(figures["p99"], color="0.4", linestyle=":", linewidth=0.9)
         axis.set_title(f"p50 {figures['p50']:.1f}   p99 {figures['p99']:.1f}   max {figures['max']:.0f} µs", loc="right", fontsize=8)
         axis.set_xscale("log")
         axis.set_yscale("log")
-        axis.yaxis.set_minor_locator(NullLocator())
+        axis.yaxis.set_minor_locator(ticker.NullLocator())
         axis.set_ylim(bottom=0.7)
         label_left(axis, f"{name}\n[cycles]")
-    figure.suptitle(f"Time per phase, {summary['clock']} clock; dotted: p99, dashed: period {period_us:.0f} µs", x=0.01, ha="left",
-                    fontsize=10)
+    about = f"dashed: period {period_us:.0f} µs" if paced else "no period: each cycle waits for the plant"
+    figure.suptitle(f"Time per phase, {summary['clock']} clock; dotted: p99, {about}", x=0.01, ha="left", fontsize=10)
     axes[-1].set_xlabel("duration [µs]")
     return figure

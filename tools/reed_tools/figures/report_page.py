@@ -33,7 +33,7 @@ def sections(summary: dict, effective_text: str, pictures: list[Path]) -> list[t
     known = summary["parameters"]
     columns = [known[key] or [None] * len(known["names"]) for key in ("true", "initial", "final", "max_abs")]
     parameters = table(["parameter", "true", "initial", "final", "largest"], [
-        [html.escape(name), *(number(value) for value in values)] for name, *values in zip(known["names"], *columns)])
+        [name, *(number(value) for value in values)] for name, *values in zip(known["names"], *columns)])
     machine = "".join(f"<p>{html.escape(line)}</p>" for line in lines(summary))
     return [("Checks", checks), ("Error by second", windows), ("Pictures", "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)),
             ("Parameters", parameters), ("Loop, bus and clock", machine + timing),

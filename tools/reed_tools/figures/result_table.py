@@ -1,15 +1,16 @@
 """The result of a run as a control engineer wants to read it: verdict and checks, then error by second, bus, timing."""
 
 from rich.table import Table
+from rich.text import Text
 
-from reed_tools.show.tables import console, grid, number
+from reed_tools.show.tables import console, grid, mark, number
+from reed_tools.text import plain
 
 
 def checks(summary: dict) -> Table:
     table = grid("checks", "figure", "value", "limit", "")
     for check in summary["checks"]:
-        table.add_row(check["name"], number(check["value"]), number(check["limit"]),
-                      "[green]ok[/]" if check["ok"] else "[bold red]FAIL[/]")
+        table.add_row(check["name"], number(check["value"]), number(check["limit"]), mark(check["ok"]))
     return table
 
 
@@ -24,7 +25,8 @@ def windows(summary: dict) -> Table:
 
 
 def timing(summary: dict) -> Table:
-    table = grid("time per cycle, µs", "phase", "p50", "p99", "p99.9", "max")
+    lockstep = summary["clock"] == "lockstep"
+    table = grid(f"time per cycle, µs{': lockstep keeps no period' if lockstep else ''}", "phase", "p50", "p99", "p99.9", "max")
     for phase, figures in summary["timing_us"].items():
         row = [figures[key] for key in ("p50", "p99", "p999", "max")] if figures else [None] * 4
         table.add_row(phase, *(number(value, 4) for value in row))
@@ -63,5 +65,5 @@ def show(summary: dict) -> None:
     out.print()
     out.print(checks(summary))
     passed = summary["verdict"] == "pass"
-    out.print(f"{summary['scenario']} on {summary['arm']}: [bold {'green' if passed else 'red'}]{summary['verdict'].upper()}[/]"
-              f"   digest {summary['digest'][:16]}", highlight=False)
+    out.print(plain(f"{summary['scenario']} on {summary['arm']}: "), Text(summary["verdict"].upper(), f"bold {'green' if passed else 'red'}"),
+              f"   digest {summary['digest'][:16]}", sep="", highlight=False)

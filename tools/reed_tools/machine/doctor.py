@@ -4,18 +4,20 @@ import ctypes
 import os
 import platform
 import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.markup import escape
+from rich.text import Text
 
 from reed_tools.machine import spy
 from reed_tools.paths import ROOT
 from reed_tools.run import bus_choice
 from reed_tools.show.tables import console, grid
+from reed_tools.text import plain
 
 MCL_CURRENT = 1
+PRIORITY = 81  # one above the loop's usual one
+ARPHRD_CAN = "280"
 LIMITS_FIX = "echo '@realtime - rtprio 99\n@realtime - memlock unlimited' | sudo tee /etc/security/limits.d/reed.conf; " \
              "sudo groupadd -f realtime; sudo usermod -aG realtime $USER; log in again"
 
@@ -26,6 +28,14 @@ class Finding:
     good: bool
     detail: str
     fix: str = ""
+
+
+def text(path: Path | str) -> str | None:
+    """Of a file of the kernel's; None where this system has none."""
+    try:
+        return Path(path).read_text(errors="replace").strip()
+    except OSError:
+        return None
 
 
 def can() -> Finding:
@@ -44,8 +54,8 @@ def vcan() -> Finding:
 
 
 def can_interfaces() -> Finding:
-    found = [path.name for path in Path("/sys/class/net").iterdir()
-             if (path / "type").read_text().strip() == "280" and not path.name.startswith("vcan")]
+    found = [path.name for path in sorted(Path("/sys/class/net").glob("*"))
+             if text(path / "type") == ARPHRD_CAN and not path.name.startswith("vcan")]
     fix = "sudo ip link set can0 up type can bitrate 1000000 dbitrate 5000000 fd on (docs/hil.md)"
     return Finding("CAN hardware", bool(found), ", ".join(found) or "no interface", "" if found else fix)
 
@@ -69,8 +79,13 @@ def telemetry_url() -> Finding:
 
 
 def scheduler() -> Finding:
-    good = subprocess.run(["chrt", "-f", "81", "true"], capture_output=True).returncode == 0
-    return Finding("SCHED_FIFO priority 81", good, "granted" if good else "refused", "" if good else LIMITS_FIX)
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        good = True
+    except OSError:
+        good = False
+    return Finding(f"SCHED_FIFO priority {PRIORITY}", good, "granted" if good else "refused", "" if good else LIMITS_FIX)
 
 
 def memory_lock() -> Finding:
@@ -90,14 +105,17 @@ def kernel_preemption() -> Finding:
 
 
 def throttling() -> Finding:
-    value = int(Path("/proc/sys/kernel/sched_rt_runtime_us").read_text())
-    return Finding("real-time throttling", value == -1, "off" if value == -1 else f"{value} of 1000000 µs",
-                   "" if value == -1 else "matters only above 95 % load: sudo sysctl kernel.sched_rt_runtime_us=-1")
+    value, period = (text(f"/proc/sys/kernel/sched_rt_{name}_us") for name in ("runtime", "period"))
+    if value is None:
+        return Finding("real-time throttling", True, "this kernel has none")
+    off = value == "-1"
+    return Finding("real-time throttling", off, "off" if off else f"{value} of {period} µs",
+                   "" if off else "matters only above 95 % load: sudo sysctl kernel.sched_rt_runtime_us=-1")
 
 
 def governor() -> Finding:
     files = sorted(Path("/sys/devices/system/cpu").glob("cpu[0-9]*/cpufreq/scaling_governor"))
-    found = sorted({file.read_text().strip() for file in files})
+    found = sorted({text(file) or "unknown" for file in files})
     if not files:
         return Finding("CPU governor", True, "not under this system's control")
     good = found == ["performance"]
@@ -107,7 +125,7 @@ def governor() -> Finding:
 
 def processors() -> Finding:
     count = len(os.sched_getaffinity(0))
-    isolated = Path("/sys/devices/system/cpu/isolated").read_text().strip()
+    isolated = text("/sys/devices/system/cpu/isolated")
     return Finding("processors", count >= 2, f"{count} usable, isolated: {isolated or 'none'}",
                    "" if count >= 2 else "the loop shares its core with everything else: give the machine a second one")
 
@@ -127,20 +145,28 @@ FINDINGS = (can, vcan, can_interfaces, small_vm, multicast, telemetry_url, sched
             throttling, governor, processors, java, disk)
 
 
+def diagnosed(finding) -> Finding:
+    """A machine that does not even answer is one more finding."""
+    try:
+        return finding()
+    except (OSError, ValueError) as error:
+        return Finding(finding.__name__.replace("_", " "), False, f"cannot be found out: {error}")
+
+
 def add_arguments(parser) -> None:
     pass
 
 
 def run(arguments) -> int:
     table = grid(f"{platform.system()} {platform.release()}, {platform.machine()}", "what", "", "found", numbers=False)
-    found = [finding() for finding in FINDINGS]
+    found = [diagnosed(finding) for finding in FINDINGS]
     for item in found:
-        table.add_row(item.subject, "[green]yes[/]" if item.good else "[yellow]no[/]", escape(item.detail))
+        table.add_row(item.subject, Text("yes", "green") if item.good else Text("no", "yellow"), plain(item.detail))
     out = console()
     out.print(table)
     for item in found:
         if item.fix:
-            out.print(f"[bold]{item.subject}[/]: {escape(item.fix)}", soft_wrap=True, highlight=False)
+            out.print(Text(item.subject, "bold"), f": {item.fix}", sep="", soft_wrap=True, highlight=False)
     buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
     usable = [buses[item.subject] for item in found if item.good and item.subject in buses]
     out.print(f"run works here with --bus {' or '.join(usable)}" if usable else "run works here over no bus yet, see above", highlight=False)

@@ -63,6 +63,6 @@ def build_types_jar() -> None:
 
 
 def call(*command: str) -> None:
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
     if done.returncode != 0:
         raise RunError(f"{command[0]} failed: {(done.stderr or done.stdout).strip()}")

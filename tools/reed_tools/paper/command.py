@@ -1,12 +1,10 @@
 """tools/reed paper: the experiments of the paper's section 4, run in lockstep, and one page with what came out."""
 
 import os
-import time
 from contextlib import contextmanager
-from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.errors import UsageError
-
 from reed_tools.paper import catalogue, runs
 from reed_tools.paths import ROOT
 from reed_tools.show import tables
@@ -15,7 +13,7 @@ CACHE = ROOT / "out" / "paper-runs"
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("--out", metavar="DIR", type=Path, help="folder of the page; default out/<time>-paper")
+    parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder of the page; default out/<time>-paper")
     parser.add_argument("--jobs", metavar="N", type=int, default=max(1, len(os.sched_getaffinity(0)) // 2),
                         help="runs side by side, two programs each; default half the cores, here %(default)s")
     parser.add_argument("--fresh", action="store_true", help="run everything again instead of keeping what ran before")
@@ -24,7 +22,9 @@ def add_arguments(parser) -> None:
 def run(arguments) -> int:
     if arguments.jobs < 1:
         raise UsageError(f"--jobs {arguments.jobs}: allowed are 1 and more")
-    folder = make_folder(arguments.out)
+    CACHE.mkdir(parents=True, exist_ok=True)
+    folders.hold(CACHE)
+    folder = folders.fresh(arguments.out, "paper", ("paper.html",), "such a page already; remove it or choose another folder")
     if arguments.fresh:
         runs.forget(CACHE)
     experiments = catalogue.everything()
@@ -36,15 +36,6 @@ def run(arguments) -> int:
     show(results)
     print(f"page  {path}")
     return 0
-
-
-def make_folder(wanted: Path | None) -> Path:
-    folder = wanted or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-paper"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"--out {folder}: {error.strerror}") from None
-    return folder.resolve()
 
 
 def show(results) -> None:
@@ -78,7 +69,7 @@ def progress(count: int):
         return
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    with Progress(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+    with Progress(TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
                   console=out, transient=True) as bars:
         whole = bars.add_task("experiments", total=count)
         into: dict[str, float] = {}

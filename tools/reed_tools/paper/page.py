@@ -6,7 +6,7 @@ from pathlib import Path
 from reed_tools.paper import captions, pictures
 from reed_tools.paper.phases import force_by_second, joint_by_second, phases, times
 from reed_tools.paper.runs import Result
-from reed_tools.show.html_parts import STYLE, table
+from reed_tools.show.html_parts import STYLE, Markup, table
 from reed_tools.show.tables import number
 
 PAPER, ROBUST = "paper_corrected", "separated"
@@ -47,7 +47,7 @@ def seen_number(value: float | None, digits: int = 3) -> str:
 
 def outcome(result: Result) -> str:
     if result.stopped:
-        return f'<span class="worse">stopped at {result.signals.t[-1]:.2f} s: {html.escape(result.stopped)}</span>'
+        return Markup(f'<span class="worse">stopped at {result.signals.t[-1]:.2f} s: {html.escape(result.stopped)}</span>')
     return "ran to the end"
 
 
@@ -77,11 +77,11 @@ def phase_table(results: list[Result]) -> str:
     for result in results:
         seen = phases(result.signals)
         if seen is None:
-            rows.append([html.escape(result.experiment.law), "no contact", "–", "–", "–", "–"])
+            rows.append([result.experiment.law, "no contact", "–", "–", "–", "–"])
             continue
         stable = seen.stable_s is not None
-        rows.append([html.escape(result.experiment.law), f"{seen.contact_s:.2f}", f"{seen.peak_s:.2f}", number(seen.peak_N, 3),
-                     f"{seen.stable_s:.2f}" if stable else '<span class="worse">never</span>', seen_number(seen.stable_rms_N)])
+        rows.append([result.experiment.law, f"{seen.contact_s:.2f}", f"{seen.peak_s:.2f}", number(seen.peak_N, 3),
+                     f"{seen.stable_s:.2f}" if stable else Markup('<span class="worse">never</span>'), seen_number(seen.stable_rms_N)])
     return table(["law", "contact [s]", "peak at [s]", "peak [N]", "stable from [s]", "rms from then [N]"], rows)
 
 
@@ -89,8 +89,8 @@ def marked(value: float | None, best: float | None) -> str:
     """The last second beside the robust law's: better than it is said as loudly as worse."""
     text = times(value, best)
     if value is None or best is None:
-        return text if value is not None else f'<span class="worse">{text}</span>'
-    return f'<span class="{"better" if value < best else "worse" if value > best else ""}">{text}</span>'
+        return text if value is not None else Markup(f'<span class="worse">{text}</span>')
+    return Markup(f'<span class="{"better" if value < best else "worse" if value > best else ""}">{text}</span>')
 
 
 def comparison(results: list[Result], with_force: bool) -> str:
@@ -100,7 +100,7 @@ def comparison(results: list[Result], with_force: bool) -> str:
     rows = []
     for result in results:
         joint = joint_by_second(result.signals, rate(result), with_force)
-        row = [html.escape(result.experiment.law), *map(seen_number, joint), marked(joint[-1], best_joint)]
+        row = [result.experiment.law, *map(seen_number, joint), marked(joint[-1], best_joint)]
         if with_force:
             force = force_by_second(result.signals, rate(result))
             row += [*map(seen_number, force), marked(force[-1], best_force)]

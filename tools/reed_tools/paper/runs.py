@@ -3,10 +3,8 @@ configuration and the same programs is not run again."""
 
 import hashlib
 import json
-import os
 import shutil
 import subprocess
-import sys
 import time
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
@@ -16,7 +14,7 @@ import numpy as np
 
 from reed_tools.errors import RunError
 from reed_tools.paper.catalogue import Experiment
-from reed_tools.paths import ROOT, program
+from reed_tools.paths import PYTHON, program
 from reed_tools.record import configuration, telemetry_log
 from reed_tools.record.signals import Signals, join
 from reed_tools.run import bus_choice, hil, scenario
@@ -114,9 +112,9 @@ def start(experiment: Experiment, folder: Path) -> Job:
                     most_cycles(configuration.load(config)))
     (folder / "plan.json").write_text(json.dumps(asdict(plan)))
     with open(folder / "progress.txt", "wb") as output:
-        process = subprocess.Popen([sys.executable, "-m", "reed_tools.run.hil", str(folder / "plan.json")],
+        process = subprocess.Popen([*PYTHON, str(hil.PROGRAM), str(folder / "plan.json")],
                                    stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                   env={**os.environ, "PYTHONPATH": str(ROOT / "tools")}, start_new_session=True, preexec_fn=hil.die_with_parent)
+                                   start_new_session=True, preexec_fn=hil.die_with_parent)
     return Job(experiment, folder, plan, process, held, time.monotonic())
 
 

@@ -3,6 +3,7 @@
 import hashlib
 import heapq
 import itertools
+import os
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -54,9 +55,18 @@ class Recording:
         return total.hexdigest()
 
 
+def open_log(path: Path, mode: str) -> lcm.EventLog:
+    """Through its descriptor's name: liblcm takes names in UTF-8 only."""
+    descriptor = os.open(path, os.O_RDONLY if mode == "r" else os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        return lcm.EventLog(f"/proc/self/fd/{descriptor}", mode, overwrite=mode == "w")
+    finally:
+        os.close(descriptor)
+
+
 def events(path: Path):
     """(utime, channel, bytes) of every message in the log, in its order."""
-    log = lcm.EventLog(str(path), "r")
+    log = open_log(path, "r")
     try:
         for event in log:
             if event.channel.startswith("REED_") and len(event.data) >= 16:
@@ -67,7 +77,7 @@ def events(path: Path):
 
 def require_whole(path: Path) -> None:
     """A log that was cut or damaged reads as another run: liblcm passes over what it cannot read."""
-    log = lcm.EventLog(str(path), "r")
+    log = open_log(path, "r")
     try:
         read = sum(EVENT_HEAD_BYTES + len(event.channel) + len(event.data) for event in log)
     finally:
@@ -81,7 +91,7 @@ def merge(parts: list[Path], target: Path) -> None:
     parts = [part for part in parts if part.exists()]
     if target.exists():
         target.unlink()
-    log = lcm.EventLog(str(target), "w")
+    log = open_log(target, "w")
     for utime, channel, data in heapq.merge(*(events(part) for part in parts), key=lambda event: event[0]):
         log.write_event(utime, channel, data)
     log.close()

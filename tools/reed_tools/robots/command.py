@@ -4,6 +4,8 @@ says of the arm's shape when --plot is among the options."""
 import argparse
 import json
 import os
+import re
+import signal
 import subprocess
 from pathlib import Path
 
@@ -11,13 +13,40 @@ from reed_tools.errors import UsageError
 from reed_tools.paths import program
 
 MODES = 4
+HELP = """  --plot [FILE]               with --arm: the arm bent by its weight and its first modes (--modes, default 4) as PNG,
+                              at --at; default inspect-ARM.png
+"""
 
 
 def pass_through(argv: list[str]) -> int:
+    argv = with_one_pose(argv)
+    if any(option in ("-h", "--help") for option in argv):
+        return show_help()
     if any(option == "--plot" or option.startswith("--plot=") for option in argv):
         return plot(argv)
     path = str(program("reed_inspect"))
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it; the program ends as others do when its reader has left
     os.execv(path, [path, *argv])
+
+
+def with_one_pose(argv: list[str]) -> list[str]:
+    """--at Q1 Q2 and --at Q1,Q2 are both --at=Q1,Q2; an angle may begin with a minus."""
+    found, rest = [], list(argv)
+    while rest:
+        word = rest.pop(0)
+        if word == "--at":
+            angles = []
+            while rest and re.match(r"[-+]?[.\d]", rest[0]):
+                angles.append(rest.pop(0).strip(","))
+            word = f"--at={','.join(angles)}" if angles else word
+        found.append(word)
+    return found
+
+
+def show_help() -> int:
+    done = subprocess.run([str(program("reed_inspect")), "--help"], stdout=subprocess.PIPE, text=True, errors="replace")
+    print(done.stdout.rstrip("\n").replace("Usage: reed_inspect", "Usage: tools/reed inspect") + "\n" + HELP, end="")
+    return done.returncode
 
 
 class Parser(argparse.ArgumentParser):
@@ -33,7 +62,7 @@ def plot(argv: list[str]) -> int:
     parser.add_argument("--at")
     arguments = parser.parse_args(argv)
     asked = [str(program("reed_inspect")), "--arm", arguments.arm, "--modes", str(arguments.modes)]
-    done = subprocess.run([*asked, *(["--at=" + arguments.at] if arguments.at else [])], stdout=subprocess.PIPE, text=True)
+    done = subprocess.run([*asked, *(["--at=" + arguments.at] if arguments.at else [])], stdout=subprocess.PIPE, text=True, errors="surrogateescape")
     if done.returncode:
         return done.returncode   # the program has said why
     shapes = json.loads(done.stdout)

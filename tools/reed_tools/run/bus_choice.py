@@ -1,11 +1,11 @@
 """Which bus a run uses, made ready: the interface or the route that is missing is made where we may."""
 
-import fcntl
+import errno
 import ipaddress
 import os
+import re
 import socket
 import subprocess
-import tempfile
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -14,7 +14,9 @@ from reed_tools.errors import UsageError
 DEFAULT_GROUP, DEFAULT_PORT = "239.74.163.2", 43113
 VCAN = "vcan0"
 ALLOWED = "auto, socketcan:IFACE, udp, udp:GROUP:PORT or vm"
-ROUTE_FIX = ("ip link set lo multicast on", "ip route add 224.0.0.0/4 dev lo")
+INTERFACE_NAME = re.compile(r"[A-Za-z0-9_.-]{1,15}")
+IFF_UP, IFF_MULTICAST = 0x1, 0x1000
+ROUTE_FIX = ("ip link set lo up multicast on", "ip route add 224.0.0.0/4 dev lo")
 
 
 def choose(wanted: str) -> str:
@@ -32,11 +34,15 @@ def choose(wanted: str) -> str:
 
 def socketcan(wanted: str) -> str:
     name = wanted.removeprefix("socketcan:")
+    if not INTERFACE_NAME.fullmatch(name):
+        raise UsageError(f"--bus {wanted}: IFACE is the name of an interface: 1 to 15 letters, digits, '_', '.' or '-'")
     if not kernel_has_can():
         raise UsageError(f"--bus {wanted}: this machine's kernel has no SocketCAN; --bus vm or --bus udp works here")
     if not (interface_exists(name) or (name.startswith("vcan") and make_vcan(name))):
-        raise UsageError(f"--bus {wanted}: there is no interface {name or '(empty)'}; `ip -br link show type vcan` and `type can` "
+        raise UsageError(f"--bus {wanted}: there is no interface {name}; `ip -br link show type vcan` and `type can` "
                          "list those there are")
+    if not (flags(name) & IFF_UP or (name.startswith("vcan") and bring_up(name))):
+        raise UsageError(f"--bus {wanted}: {name} is down; as root: ip link set {name} up (a real interface needs its bit rates first, docs/hil.md)")
     return wanted
 
 
@@ -77,13 +83,27 @@ def interface_exists(name: str) -> bool:
     return bool(name) and Path("/sys/class/net", name).exists()
 
 
+def flags(name: str) -> int:
+    """Of an interface; 0 where the system does not say."""
+    try:
+        return int(Path("/sys/class/net", name, "flags").read_text(), 16)
+    except (OSError, ValueError):
+        return 0
+
+
 def vcan_ready(name: str) -> bool:
-    return kernel_has_can() and (interface_exists(name) or make_vcan(name))
+    """Exists and is up, or could be made so."""
+    if not kernel_has_can():
+        return False
+    return flags(name) & IFF_UP != 0 or bring_up(name) if interface_exists(name) else make_vcan(name)
+
+
+def bring_up(name: str) -> bool:
+    return as_root(f"ip link set {name} up")
 
 
 def make_vcan(name: str) -> bool:
-    return (as_root(f"ip link add {name} type vcan") and as_root(f"ip link set {name} mtu 72")
-            and as_root(f"ip link set {name} up"))
+    return as_root(f"ip link add {name} type vcan") and as_root(f"ip link set {name} mtu 72") and bring_up(name)
 
 
 def as_root(command: str) -> bool:
@@ -100,43 +120,33 @@ def multicast_works() -> bool:
         try:
             probe.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
             probe.sendto(b"", (DEFAULT_GROUP, 9))
-            return loopback_has_multicast()
+            return flags("lo") & (IFF_UP | IFF_MULTICAST) == IFF_UP | IFF_MULTICAST
         except OSError:
             return False
 
 
-def loopback_has_multicast() -> bool:
-    flags = int(Path("/sys/class/net/lo/flags").read_text(), 16)
-    return bool(flags & 0x1000)  # IFF_MULTICAST
-
-
 def require_multicast_route() -> None:
     """Software bus and telemetry need a route for 224.0.0.0/4 and multicast on lo."""
-    if multicast_works() or (all([as_root(command) for command in ROUTE_FIX]) and multicast_works()):
+    if multicast_works():
         return
-    raise UsageError(f"no multicast on this machine's loopback; as root: {' && '.join(ROUTE_FIX)}")
-
-
-def lock_file(path: Path) -> int:
-    """Opened to read only, and made only where it is missing: it may be another user's, whose bus is no less in use."""
-    try:
-        return os.open(path, os.O_RDONLY) if path.exists() else os.open(path, os.O_RDONLY | os.O_CREAT, 0o644)
-    except OSError as error:
-        raise UsageError(f"{path}: {error.strerror.lower()}; it tells runs of one bus apart, remove it") from None
+    for command in ROUTE_FIX:
+        as_root(command)  # one of them may be done already, and fail
+    if not multicast_works():
+        raise UsageError(f"no multicast on this machine's loopback; as root: {' && '.join(ROUTE_FIX)}")
 
 
 @contextmanager
 def held(bus: str):
-    """Two runs on one bus would drive each other's arm: the second one is told so before it starts."""
-    path = Path(tempfile.gettempdir(), f"reed-bus-{bus.replace(':', '-').replace('/', '-')}.lock")
-    descriptor = lock_file(path)
+    """Two runs on one bus would drive each other's arm: the second one is refused before it starts. The name is an abstract
+    socket: it belongs to the network, as the bus does, whoever runs and whatever files there are, and ends with its process."""
+    name = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(descriptor)
+        name.bind(f"\0reed-bus-{bus}")
+    except OSError as error:
+        name.close()
+        if error.errno != errno.EADDRINUSE:
+            raise
         raise UsageError(f"another run is using {bus}; wait for it or choose another, like "
                          f"--bus udp:{DEFAULT_GROUP}:{DEFAULT_PORT + 1}") from None
-    try:
+    with name:
         yield
-    finally:
-        os.close(descriptor)

@@ -1,20 +1,21 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
-import re
+import contextlib
 import shutil
 import tempfile
-import time
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
-from reed_tools.paths import ROOT, program
+from reed_tools.paths import program
 from reed_tools.record import trace_events
 from reed_tools.record.telemetry_log import load, merge
 from reed_tools.run import bus_choice, hil, progress, scenario, vm
+from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
+OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump", "bus.log",
              "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
@@ -26,7 +27,8 @@ def add_arguments(parser) -> None:
     parser.add_argument("--duration", metavar="S", help="seconds from the moment the arm is active")
     parser.add_argument("--rate", metavar="HZ", help="cycles per second")
     parser.add_argument("--seed", metavar="N", help="of every random number of the plant")
-    parser.add_argument("--out", metavar="DIR", type=Path, help="run folder; default out/<time>-<scenario>")
+    parser.add_argument("--out", metavar="DIR", type=folders.argument,
+                        help="run folder, without a run in it yet; default out/<time>-<scenario>")
     parser.add_argument("--bus", default="auto", metavar="BUS",
                         help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
                              "vm (real SocketCAN inside a small VM)")
@@ -44,14 +46,15 @@ def run(arguments) -> int:
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
             checked = Path(scratch, "effective.toml")
             effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked)
-            folder = make_folder(arguments, effective["scenario"]["name"])
+            folder = folders.fresh(arguments.out, effective["scenario"]["name"], OWN_FILES,
+                                   "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
         duration_s = effective["scenario"]["duration_s"]
-        print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
-              f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)
+        print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
+                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
                         bus, arguments.clock, str(folder), most_cycles(effective))
-        with progress.shown(effective["scenario"]["name"], duration_s) as on_progress:
+        with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
             outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
     return conclude(folder, plan, outcome, arguments.trace)
 
@@ -60,20 +63,8 @@ def most_cycles(effective: dict) -> int:
     return int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
 
 
-def make_folder(arguments, name: str) -> Path:
-    folder = arguments.out or ROOT / "out" / f"{time.strftime('%Y%m%d-%H%M%S')}-{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}"
-    if not (folder / "effective.toml").exists() and (others := [own for own in OWN_FILES if (folder / own).exists()]):
-        raise UsageError(f"--out {folder}: is no run folder, and its {others[0]} would be replaced")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        clear(folder)
-    except OSError as error:
-        raise UsageError(f"--out {folder}: {error.strerror}") from None
-    return folder.resolve()
-
-
 def clear(folder: Path) -> None:
-    """Without what an earlier run left there; other files stay."""
+    """Without what a run left there; other files stay."""
     for own in OWN_FILES:
         (folder / own).unlink(missing_ok=True)
 
@@ -82,6 +73,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     """Keeps what was recorded first, then tells what happened."""
     from reed_tools.figures.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
 
+    link_frames(folder)
     merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
     if trace:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
@@ -97,13 +89,20 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
         result_table.show(summary)
     for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
         if not (complaint and line in complaint):
-            print(line)  # what the machine refused, with the fix; why the arm stopped
+            print(plain(line))  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")
     if complaint:
         raise RunError(complaint)
     return 0 if summary["verdict"] == "pass" else 1
+
+
+def link_frames(folder: Path) -> None:
+    """python-can goes by the suffix and knows this format as .log."""
+    if (folder / "bus.candump").exists():
+        with contextlib.suppress(OSError):  # a file system without links
+            (folder / "bus.log").symlink_to("bus.candump")
 
 
 def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
@@ -124,5 +123,5 @@ def last_line(plan: hil.Plan, name: str) -> str:
 def shown(path: Path) -> str:
     try:
         return str(path.relative_to(Path.cwd()))
-    except ValueError:
+    except (ValueError, OSError):  # elsewhere; or the current folder is gone
         return str(path)

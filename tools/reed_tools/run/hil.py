@@ -1,8 +1,9 @@
 """The two programs of one run: started plant first, stopped firmware first. Standard library only, because inside the
-small VM (tools/vm) this module itself is the program: `python -m reed_tools.run.hil PLAN.json`."""
+small VM (tools/vm) they run without its packages (pair.py)."""
 
 import ctypes
 import json
+import resource
 import signal
 import subprocess
 import sys
@@ -10,9 +11,12 @@ import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from reed_tools.record.log_tail import LogTail
+from reed_tools.record.log_tail import ACTIVE, LogTail
+from reed_tools.run.guard import Guard
 
+PROGRAM = Path(__file__).with_name("pair.py")
 POLL_S = 0.05
+STACK_BYTES = 8 << 20     # what Linux gives by itself
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
 STALL_S = 30.0           # no recorded cycle for this long: something hangs
@@ -47,17 +51,24 @@ class Outcome:
 
 
 def die_with_parent() -> None:
-    """In the child: end when the tool is killed outright, so that no half of a run keeps the bus busy."""
+    """In a Python child: end in order when the tool is killed outright."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)
 
 
 def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.Popen:
     command = [program, "--config", plan.config, "--bus", plan.bus, "--clock", plan.clock,
                "--log", str(plan.log(name)), *([] if plan.lcm else ["--no-lcm"]), *extra]
+    limit_stacks()
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                start_new_session=True, preexec_fn=die_with_parent)
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+
+
+def limit_stacks() -> None:
+    """A program that locks its memory locks whole stacks: one for each thread, as large as the caller's limit."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_STACK)
+    if soft == resource.RLIM_INFINITY or soft > STACK_BYTES:
+        resource.setrlimit(resource.RLIMIT_STACK, (STACK_BYTES, hard))
 
 
 def said(plan: Plan, name: str) -> list[str]:
@@ -102,17 +113,27 @@ def await_bus(plan: Plan, plant: subprocess.Popen, interrupted: list) -> None:
 
 def run_pair(plan: Plan, on_progress) -> Outcome:
     """Runs both programs to the end of the scenario. on_progress(mode, t_s) is called a few times per second."""
+    with Guard() as guard:
+        return run_guarded(plan, on_progress, guard)
+
+
+def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
     outcome = Outcome()
     interrupted = []
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True)) for number in stop_signals()}
     plant = start("plant", plan.plant_sim, plan, [])
+    guard.watch(plant)
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
     firmware = start("firmware", plan.firmware, plan, ["--enable", *frames])
+    guard.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:
         outcome.firmware_status = stop(firmware)
+        tail = LogTail(plan.log("firmware"))
+        if (state := tail.control()) is not None:
+            tell_progress(tail, state, on_progress)  # where the run ended, not where it was when last looked at
         # The plant asked to stop is not a plant that died: only what it said before counts.
         died = plant.poll()
         status = stop(plant)
@@ -138,8 +159,8 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
             return
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
-            cycle, mode, t_s = state
-            on_progress(mode, t_s)
+            cycle = state[0]
+            tell_progress(tail, state, on_progress)
             if cycle > plan.most_cycles:
                 outcome.stopped_because = f"the scenario was not done after {cycle} cycles"
                 return
@@ -147,12 +168,13 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
             return  # the firmware had its time to notice
 
 
+def tell_progress(tail: LogTail, state: tuple[int, int, float], on_progress) -> None:
+    _, mode, t_s = state
+    on_progress(mode, t_s if mode == ACTIVE else tail.reached_s())
+
+
 def main() -> int:
     plan = Plan(**json.loads(Path(sys.argv[1]).read_text()))
     outcome = run_pair(plan, lambda mode, t_s: print(f"{PROGRESS_MARK}{mode} {t_s}", flush=True))
     (Path(plan.out) / "outcome.json").write_text(json.dumps(asdict(outcome)))
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -32,7 +32,7 @@ def never_back(update):
 def bar(scenario: str, duration_s: float):
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:5.1f} / {task.total:.1f} s  {task.fields[mode]}"),
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.completed:5.1f} / {task.total:.1f} s  {task.fields[mode]}"),
                TimeRemainingColumn())
     with Progress(*columns, transient=True) as progress:
         task = progress.add_task(scenario, total=duration_s, mode="starting")

@@ -27,7 +27,7 @@ def write_effective(scenario: str, arm: str | None, entries: list[str], target: 
         command += ["--arm", arm]
     for entry in entries:
         command += ["--set", entry]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
     message = done.stderr.strip() or done.stdout.strip()
     if done.returncode == 2:
         raise UsageError(message)

@@ -1,17 +1,16 @@
 """The small VM with a real SocketCAN stack (tools/vm)."""
 
 import json
-import os
 import signal
 import subprocess
-import sys
 import tempfile
 from dataclasses import asdict, replace
 from pathlib import Path
 
 from reed_tools.errors import RunError
-from reed_tools.paths import ROOT
+from reed_tools.paths import PYTHON, ROOT
 from reed_tools.run import hil
+from reed_tools.run.guard import Guard
 
 VM = ROOT / "tools" / "vm" / "vm"
 BUS = "socketcan:vcan0"
@@ -32,11 +31,12 @@ def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(asdict(inner), file)
         file.flush()
-        environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
-        inside = command([sys.executable, "-m", "reed_tools.run.hil", file.name], START_S + SLOWEST_CYCLE_S * plan.most_cycles,
+        inside = command([*PYTHON, str(hil.PROGRAM), file.name], START_S + SLOWEST_CYCLE_S * plan.most_cycles,
                          realtime=plan.clock == "wall")
-        process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
-        interrupted = follow(process, on_progress)
+        with Guard() as guard:
+            process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
+            guard.watch(process)
+            interrupted = follow(process, on_progress)
     if not outcome_file.exists():
         raise RunError(f"the VM ended with status {process.returncode} before the run did")
     outcome = hil.Outcome(**json.loads(outcome_file.read_text()))

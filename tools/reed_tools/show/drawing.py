@@ -1,9 +1,42 @@
-"""How every picture looks: colours, type, margins. Drawn to files only: no window, no display."""
+"""How every picture looks: colours, type, margins. Drawn to files only: no window, no display.
 
-import matplotlib
+Nothing else imports Matplotlib: here it starts with our own matplotlibrc, backend and cache folder, whatever the caller's
+environment, home and current folder hold."""
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import atexit
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from reed_tools.paths import ROOT
+
+os.environ["MPLBACKEND"] = "Agg"
+
+
+def cache_folder() -> str:
+    """Of the list of fonts, kept from one start to the next; elsewhere where this checkout cannot be written."""
+    kept = ROOT / "build" / "matplotlib"
+    try:
+        kept.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=kept).close()
+        return str(kept)
+    except OSError:
+        folder = tempfile.mkdtemp(prefix="reed-matplotlib-")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return folder
+
+
+os.environ["MPLCONFIGDIR"] = cache_folder()
+came_from = os.open(".", os.O_PATH)
+os.chdir(Path(__file__).parent)  # a matplotlibrc in the current folder comes before every other
+try:
+    import matplotlib
+    import matplotlib.pyplot as plt
+    from matplotlib import ticker  # noqa: F401
+finally:
+    os.fchdir(came_from)
+    os.close(came_from)
 
 # Okabe-Ito: distinguishable in print and by every reader; line styles repeat the distinction.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")

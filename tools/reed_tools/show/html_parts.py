@@ -14,16 +14,20 @@ th:first-child,td:first-child{text-align:left} th{font-weight:600}
 """
 
 
+class Markup(str):
+    """Text that is HTML already; everything else is escaped where a table takes it."""
+
+
 def table(head: list[str], rows: list[list]) -> str:
     def cells(tag: str, values: list) -> str:
-        return "".join(f"<{tag}>{value}</{tag}>" for value in values)
+        return "".join(f"<{tag}>{value if isinstance(value, Markup) else html.escape(str(value))}</{tag}>" for value in values)
 
     body = "\n".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
     return f"<table><thead><tr>{cells('th', head)}</tr></thead><tbody>\n{body}\n</tbody></table>"
 
 
-def mark(ok: bool) -> str:
-    return '<span class="pass">ok</span>' if ok else '<span class="fail"><b>FAIL</b></span>'
+def mark(ok: bool) -> Markup:
+    return Markup('<span class="pass">ok</span>' if ok else '<span class="fail"><b>FAIL</b></span>')
 
 
 def picture(path: Path, caption: str) -> str:

@@ -3,13 +3,19 @@
 from rich import box
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 PLAIN_WIDTH = 110
 
 
 def console() -> Console:
-    found = Console()
-    return found if found.is_terminal else Console(width=PLAIN_WIDTH)
+    """Text is text: names with brackets are no markup. What has a style says so as a Text."""
+    found = Console(markup=False, emoji=False)
+    return found if found.is_terminal else Console(markup=False, emoji=False, width=PLAIN_WIDTH)
+
+
+def mark(ok: bool, good: str = "ok", bad: str = "FAIL") -> Text:
+    return Text(good, "green") if ok else Text(bad, "bold red")
 
 
 def number(value, digits: int = 4) -> str:

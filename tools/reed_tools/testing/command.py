@@ -32,11 +32,16 @@ def run(arguments) -> int:
     return 0 if all(stage.ok for stage in done) else 1
 
 
+def own_environment() -> dict[str, str]:
+    """Without what the caller tells his own Python."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+
+
 def execute(stage: Stage) -> None:
     """Streams the stage's output and keeps its runner's closing lines."""
     print(f"== {stage.name}", flush=True)
     started = time.monotonic()
-    environment = {**os.environ, "REED_BUILD_DIR": str(BUILD), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {**own_environment(), "REED_BUILD_DIR": str(BUILD), "PYTHONDONTWRITEBYTECODE": "1"}
     process = subprocess.Popen(stage.command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True, errors="replace")
     for line in process.stdout:

@@ -1,0 +1,42 @@
+"""Which Reed this is, and what a mistyped word may have meant."""
+
+import re
+import subprocess
+
+import pytest
+
+from reed_tools import cli, versions
+from reed_tools.cli import COMMANDS
+from reed_tools.paths import ROOT
+from reed_tools.text import did_you_mean
+
+
+@pytest.mark.parametrize("argv", [["--version"], *([command, "--version"] for command in COMMANDS)])
+def test_every_command_says_its_version_and_commit(reed, argv):
+    done = reed(*argv)
+    assert (done.returncode, done.stdout, done.stderr) == (0, cli.version() + "\n", "")
+    assert re.fullmatch(r"reed \d+\.\d+\.\d+, commit ([0-9a-f]{40}([+]changes)?|unknown: .*)\n", done.stdout)
+
+
+def test_the_bootstrap_builds_nothing_for_it():
+    done = subprocess.run([ROOT / "tools" / "reed", "run", "--version"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, cli.version() + "\n", "")
+
+
+def test_a_checkout_without_git_says_so(monkeypatch):
+    monkeypatch.setattr(versions, "git", lambda *arguments: "")
+    assert "commit unknown: " in cli.version()
+
+
+@pytest.mark.parametrize("argv, told", [(["rnu"], "did you mean `run`?"), (["inspekt"], "did you mean `inspect`?"),
+                                        (["run", "--durtion", "3"], "did you mean `--duration`?"),
+                                        (["run", "--sed=3"], "did you mean `--seed`?"),
+                                        (["campaign", "press_knwon"], "did you mean `press_known`?"),
+                                        (["bench", "stpes"], "did you mean `steps`?")])
+def test_what_was_mistyped_is_named(reed, argv, told):
+    done = reed(*argv)
+    assert done.returncode == 2 and told in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+
+
+def test_what_is_near_to_nothing_gets_no_hint():
+    assert did_you_mean("xyzzy", COMMANDS) == "" and did_you_mean("run", COMMANDS) == ""

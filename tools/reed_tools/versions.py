@@ -1,0 +1,39 @@
+"""What runs here: the version of Reed, the commit of its tree and the build of its two programs."""
+
+import hashlib
+import subprocess
+import tomllib
+
+from reed_tools.paths import ROOT, program
+
+PROGRAMS = ("reed_firmware", "reed_plant_sim")
+
+
+def reed() -> str:
+    return tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+
+
+def commit() -> str | None:
+    """With "+changes" where the tree is not the commit's; None without git or outside a repository."""
+    head = git("rev-parse", "HEAD")
+    return f"{head}+changes" if head and git("status", "--porcelain", "--untracked-files=no") else head or None
+
+
+def git(*arguments: str) -> str:
+    try:
+        done = subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True)
+    except OSError:
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def build() -> str:
+    """Of the two programs: runs of different builds need not be equal."""
+    total = hashlib.sha256()
+    for name in PROGRAMS:
+        total.update(program(name).read_bytes())
+    return total.hexdigest()[:12]
+
+
+def all_of_them() -> dict:
+    return {"reed": reed(), "commit": commit(), "build": build()}
