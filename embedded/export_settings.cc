@@ -10,7 +10,9 @@
 namespace reed::embedded {
 namespace {
 
-void Print(double value) { std::printf("%.17g,\n", value > 1e300 ? 1e300 : (value < -1e300 ? -1e300 : value)); }
+void Print(double value) {
+  std::printf("%.17g,\n", value > 1e300 ? 1e300 : (value < -1e300 ? -1e300 : value));
+}
 
 void Export(const Scenario& scenario) {
   Settings<N, P> settings = SettingsFrom<N, P>(scenario, true);
@@ -18,8 +20,9 @@ void Export(const Scenario& scenario) {
   VisitSettings([](double& value) { Print(value); }, settings);
   std::printf("};\n");
   const reference::PlannedPath<N> path = PathFrom(scenario, settings.arm);
-  std::printf("const double kSpacing_s = %.17g;\nconst std::size_t kNumKnots = %zu;\nconst double kKnots[] = {\n", path.spacing_s,
-              path.knots.size());
+  std::printf(
+      "const double kSpacing_s = %.17g;\nconst std::size_t kNumKnots = %zu;\nconst double kKnots[] = {\n",
+      path.spacing_s, path.knots.size());
   for (const auto& knot : path.knots)
     for (const auto* part : {&knot.q, &knot.q_dot, &knot.q_ddot})
       for (const double value : *part) Print(value);

@@ -20,8 +20,7 @@ class Visitor {
 
   /// Whole numbers, flags and names of choices travel as doubles.
   template <typename T>
-    requires(std::is_integral_v<T> || std::is_enum_v<T>)
-  void operator()(T& value) {
+  requires(std::is_integral_v<T> || std::is_enum_v<T>) void operator()(T& value) {
     double number = static_cast<double>(value);
     each_(number);
     value = static_cast<T>(static_cast<int>(number));
@@ -64,18 +63,20 @@ void Visit(Visitor<Each>& visit, strategy::Gains<N, P>& g) {
   visit.All(g.K_d, g.Lambda, g.Gamma_known, g.Gamma_unknown, g.p_0, g.eta_0);
   visit.All(g.sliding.c_0, g.sliding.c_1, g.sliding.phi, g.sliding.scale);
   visit.All(g.sigma0_max, g.sigma1_max, g.dead_zone, g.leak_p, g.leak_sigma, g.K_o);
-  visit.All(g.Gamma_c_known, g.Gamma_c_unknown, g.kappa_0, g.kappa_max, g.friction_speed, g.subtract_observer);
+  visit.All(g.Gamma_c_known, g.Gamma_c_unknown, g.kappa_0, g.kappa_max, g.friction_speed,
+            g.subtract_observer);
 }
 
 template <typename Each>
 void Visit(Visitor<Each>& visit, strategy::ForceModeConfig& f) {
-  visit.All(f.gains.k_p, f.gains.k_i, f.gains.a, f.threshold_N, f.approach_speed_mps, f.speed_limit_mps, f.schedule,
-            f.bandwidth_radps, f.approach_time_s, f.least_k_p, f.most_k_p);
+  visit.All(f.gains.k_p, f.gains.k_i, f.gains.a, f.threshold_N, f.approach_speed_mps, f.speed_limit_mps,
+            f.schedule, f.bandwidth_radps, f.approach_time_s, f.least_k_p, f.most_k_p);
 }
 
 template <typename Each>
 void Visit(Visitor<Each>& visit, protect::LimitValues<N>& v) {
-  visit.All(v.torque, v.torque_step, v.position_min, v.position_max, v.speed, v.contact_force, v.hold_age, v.stop_age);
+  visit.All(v.torque, v.torque_step, v.position_min, v.position_max, v.speed, v.contact_force, v.hold_age,
+            v.stop_age);
 }
 
 template <typename Each>

@@ -14,6 +14,7 @@
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/description/cores.h"
 #include "reed/firmware/cycle/make_cycle.h"
+#include "reed/firmware/law_plugin/law_plugin.h"
 #include "reed/firmware/loop/loop.h"
 #include "reed/firmware/record/recorder.h"
 #include "reed/firmware/startup/checks.h"
@@ -84,7 +85,7 @@ run_t Describe(const Options& options, const Scenario& scenario, const bus::Tran
   run_t run{};
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
-  run.law = scenario.control.law;
+  run.law = options.law.empty() ? scenario.control.law : options.law;
   run.clock = options.clock == ClockKind::kWall ? "wall" : "lockstep";
   run.dof = scenario.arm.dof();
   run.num_parameters = scenario.arm.num_parameters();
@@ -124,7 +125,9 @@ int Run(const Options& options) {
   const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.clock == ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
-  const std::unique_ptr<CycleBase> cycle = MakeCycle(scenario, *transport, options.enable);
+  const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
+  const std::unique_ptr<CycleBase> cycle =
+      MakeCycle(scenario, *transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);
   RefuseSecondController(*transport);
 
   telemetry::SnapshotRing ring(kRingCapacity);

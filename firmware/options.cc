@@ -25,6 +25,8 @@ Options ParseOptions(int argc, char** argv) {
                "open the brakes once every joint is measured; without it the arm is only watched");
   app.add_option("--log", options.log, "LCM event log that gets every message");
   app.add_option("--candump", options.candump, "CAN log in candump -L format");
+  app.add_option("--law", options.law,
+                 "a law from outside: a shared library with the functions of reed/law.h, LIB.so[:ARGUMENT]");
   app.add_flag("--seccomp", options.seccomp,
                "prove it: any system call of the loop beyond its named handful ends the program");
   app.add_flag("--quiet", options.quiet, "print errors only");

@@ -14,6 +14,7 @@ struct Options {
   LoadOptions load;
   std::string bus = "socketcan:vcan0";
   ClockKind clock = ClockKind::kWall;
+  std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
   std::string log;      // LCM event log
   std::string candump;  // CAN log
   bool enable = false;  // the operator's wish to open the brakes

@@ -12,10 +12,11 @@ TOOLS = ROOT / "tools" / "reed_tools"
 BASE = {"errors", "folders", "paths", "text", "versions"}  # modules that every room may import; they know no room
 ARROWS = {
     "show": set(),
+    "law": set(),
     "record": set(),
     "robots": {"show"},
     "figures": {"record", "robots", "show"},
-    "run": {"figures", "record"},
+    "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},
     "bench": {"record", "robots", "show"},

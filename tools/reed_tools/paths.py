@@ -1,6 +1,7 @@
 """Where things are: the repository, the build directory, the programs."""
 
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -18,6 +19,13 @@ def program(name: str) -> Path:
     if not path.exists():
         raise RunError(f"{name} is not built: {path} is missing; `ninja -C {BUILD} {name}` builds it")
     return path
+
+
+def build(*targets: str) -> None:
+    """Built where they are not; silent when there is nothing to do."""
+    done = subprocess.run(["ninja", "-C", str(BUILD), *targets], capture_output=True, text=True)
+    if done.returncode:
+        raise RunError(f"{' '.join(targets)} did not build: {done.stdout[-300:]}")
 
 
 def use_message_types() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
+from reed_tools.law import choice as law_choice
 from reed_tools.paths import program
 from reed_tools.record import trace_events
 from reed_tools.record.telemetry_log import load, merge
@@ -36,11 +37,14 @@ def add_arguments(parser) -> None:
                         help="wall: paced by the clock; lockstep: as fast as possible, bit-reproducible")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
                         help="override any number of the scenario or arm; repeatable")
+    parser.add_argument("--law", metavar="LIB.so|FILE.py",
+                        help="a law from outside: a shared library with the functions of reed/law.h, or a Python file (lockstep only)")
     parser.add_argument("--trace", action="store_true",
                         help="also write trace.json, for ui.perfetto.dev: a span per phase, instants for what happened")
 
 
 def run(arguments) -> int:
+    law = law_choice.choose(arguments.law, arguments.clock)
     bus = bus_choice.choose(arguments.bus)
     with bus_choice.held(bus):
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
@@ -53,7 +57,7 @@ def run(arguments) -> int:
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
-                        bus, arguments.clock, str(folder), most_cycles(effective))
+                        bus, arguments.clock, str(folder), most_cycles(effective), law=law.spec, environment=law.environment)
         with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
             outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
     return conclude(folder, plan, outcome, arguments.trace)
@@ -77,7 +81,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
     if trace:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
-    complaint = what_failed(plan, outcome)
+    complaint = law_choice.in_words(what_failed(plan, outcome))
     if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
         if not load(folder / "telemetry.lcmlog").has("REED_MEASURED"):  # nothing ran: no trace of it
             clear(folder)
@@ -89,7 +93,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
         result_table.show(summary)
     for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
         if not (complaint and line in complaint):
-            print(plain(line))  # what the machine refused, with the fix; why the arm stopped
+            print(plain(law_choice.in_words(line)))  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
     print(f"report  {shown(folder / 'report.html')}")

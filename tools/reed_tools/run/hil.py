@@ -3,12 +3,13 @@ small VM (tools/vm) they run without its packages (pair.py)."""
 
 import ctypes
 import json
+import os
 import resource
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from reed_tools.record.log_tail import ACTIVE, LogTail
@@ -34,6 +35,8 @@ class Plan:
     most_cycles: int  # more than the scenario and its start can need
     lcm: bool = True  # publish on the LCM network too
     candump: bool = True  # keep every frame
+    law: str = ""  # of the firmware's --law; "": the scenario's
+    environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -61,7 +64,8 @@ def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.P
     limit_stacks()
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
+                                env={**os.environ, **plan.environment})
 
 
 def limit_stacks() -> None:
@@ -125,7 +129,8 @@ def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
     guard.watch(plant)
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
-    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames])
+    law = ["--law", plan.law] if plan.law else []
+    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames, *law])
     guard.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)

@@ -1,0 +1,1 @@
+"""Laws from outside: what --law names, and the process that runs a law in Python."""
