@@ -15,6 +15,8 @@ namespace {
 // run code.
 constinit thread_local bool t_counting = false;
 constinit thread_local std::int64_t t_calls = 0;
+using Witness = void (*)() noexcept;
+constinit Witness g_witness = nullptr;
 
 }  // namespace
 
@@ -26,6 +28,7 @@ HeapCount::HeapCount() noexcept {
 }
 HeapCount::~HeapCount() { t_counting = false; }
 std::int64_t HeapCount::calls() const noexcept { return t_calls; }
+void HeapCount::SetWitness(void (*witness)() noexcept) noexcept { g_witness = witness; }
 bool HeapCount::Works() noexcept { return REED_HEAP_GUARD != 0; }
 
 }  // namespace reed::rt
@@ -35,7 +38,9 @@ bool HeapCount::Works() noexcept { return REED_HEAP_GUARD != 0; }
 namespace {
 
 void Count() noexcept {
-  if (t_counting) ++t_calls;
+  if (!t_counting) return;
+  ++t_calls;
+  if (g_witness != nullptr) g_witness();
 }
 
 bool IsPowerOfTwo(std::size_t n) noexcept { return n != 0 && (n & (n - 1)) == 0; }

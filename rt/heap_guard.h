@@ -18,6 +18,9 @@ class HeapCount {
   /// Calls of the malloc family on this thread since construction; free(nullptr) counts too.
   std::int64_t calls() const noexcept;
 
+  /// Called at every counted call; nullptr: nobody. For proofs that name the caller.
+  static void SetWitness(void (*witness)() noexcept) noexcept;
+
   /// False in a sanitizer's build, which has its own allocator: calls() is 0 and proves nothing there.
   static bool Works() noexcept;
 };

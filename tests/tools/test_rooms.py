@@ -19,7 +19,7 @@ ARROWS = {
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},
-    "bench": {"record", "robots", "show"},
+    "bench": {"law", "record", "robots", "show"},
     "machine": {"run", "show"},
     "testing": {"run"},
 }

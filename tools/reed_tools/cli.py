@@ -19,6 +19,7 @@ COMMANDS = {
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
     "paper": ("paper.command", "the paper's experiments, reproduced on one page"),
+    "budget": ("bench.budget", "the loop's proofs for a law from outside: heap, system calls, exceptions, time"),
     "bench": ("bench.command", "speed and latency beside what they are compared with"),
     "test": ("testing.command", "all tests, or those that match a filter"),
 }

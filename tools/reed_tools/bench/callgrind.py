@@ -27,13 +27,13 @@ def available() -> bool:
     return shutil.which("valgrind") is not None
 
 
-def count(program: Path) -> dict[str, Count]:
+def count(program: Path, *arguments: str) -> dict[str, Count]:
     """By stage."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "counts")
         done = subprocess.run(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--combine-dumps=yes",
                                f"--toggle-collect={MARKED}", f"--dump-after={MARKED}",
-                               f"--callgrind-out-file={out}", str(program), "--count"],
+                               f"--callgrind-out-file={out}", str(program), "--count", *arguments],
                               capture_output=True, text=True, timeout=600, env={**os.environ, "LD_BIND_NOW": "1"})
         if done.returncode:
             raise RunError(f"{program.name} under callgrind ended with status {done.returncode}: {done.stderr.strip()[-300:]}")
