@@ -38,7 +38,6 @@ void Record(ControlStep<5, 7>& step, const std::array<bus::Frame, kFrames>& fram
   telemetry::FillControl(step.controller(), snapshot.control);
   telemetry::FillAdaptation(step.controller().strategy().adaptive(), snapshot.adaptation);
   telemetry::FillBus({}, {}, 0, snapshot.bus);
-  telemetry::Fill(snapshot.control.tau, step.decision().tau_law);
 }
 
 int Run(const std::string& folder) {
