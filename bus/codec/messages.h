@@ -14,11 +14,10 @@
 
 #include "reed/bus/codec/e2e_profile5.h"
 #include "reed/bus/frame/frame.h"
+#include "reed/config/sizes/sizes.h"
 #include "reed_layout.h"
 
 namespace reed::bus {
-
-inline constexpr int kMaxJoints = 8;
 
 /// What the controller asks of the drives. Drives change state only on a change of request, in this order;
 /// a stream of torques alone never starts an arm.

@@ -13,6 +13,7 @@
 
 #include "reed/bus/transport/msgpack_frame.h"
 #include "reed/bus/transport/socket_options.h"
+#include "reed/rt/errno_text.h"
 
 namespace reed::bus {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 }
 
 [[noreturn]] void FailNoRoute(const UdpAddress& address) {
-  Fail(address, "no multicast on loopback (" + ErrnoText() + ")",
+  Fail(address, "no multicast on loopback (" + rt::ErrnoText() + ")",
        "sudo ip link set lo up multicast on; sudo ip route add 224.0.0.0/4 dev lo");
 }
 
@@ -43,7 +44,7 @@ sockaddr_in Parse(const UdpAddress& address) {
 
 FileDescriptor OpenSocket(const UdpAddress& address) {
   FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (fd.get() < 0) Fail(address, "no UDP socket: " + ErrnoText(), "enable IPv4");
+  if (fd.get() < 0) Fail(address, "no UDP socket: " + rt::ErrnoText(), "enable IPv4");
   return fd;
 }
 
@@ -91,7 +92,7 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   SetReceiveQueue(in);
   if (DropOwn(in, own_port_)) DropsOwn();
   if (bind(in, Generic(group), sizeof group) < 0) {
-    Fail(address, "cannot bind: " + ErrnoText(), "another program owns this port, choose another");
+    Fail(address, "cannot bind: " + rt::ErrnoText(), "another program owns this port, choose another");
   }
   const ip_mreqn membership = OnLoopback(group.sin_addr);
   if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) < 0) FailNoRoute(address);

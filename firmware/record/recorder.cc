@@ -18,18 +18,13 @@ constexpr std::int64_t kFlushNs = 100'000'000;
 /// More than a watcher can follow; bursts because the thread wakes up every few ms.
 constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 50;
 
-std::string Lost(const SinkReport& sink, const char* what) {
-  return sink.problem + " (" + std::to_string(sink.lost) + " " + what + " lost, " +
-         std::to_string(sink.written) + " written)";
-}
-
 }  // namespace
 
 std::vector<std::string> RecorderReport::Problems() const {
   std::vector<std::string> lines;
-  if (!log.problem.empty()) lines.push_back(Lost(log, "messages"));
-  if (!candump.problem.empty()) lines.push_back(Lost(candump, "frames"));
-  if (!lcm.problem.empty()) lines.push_back(Lost(lcm, "messages"));
+  if (!log.problem.empty()) lines.push_back(log.Loss("messages"));
+  if (!candump.problem.empty()) lines.push_back(candump.Loss("frames"));
+  if (!lcm.problem.empty()) lines.push_back(lcm.Loss("messages"));
   if (frames_omitted > 0) {
     lines.push_back("CAN log: " + std::to_string(frames_omitted) + " frames omitted, more than " +
                     std::to_string(kMaxFrames) + " in one cycle");

@@ -14,12 +14,12 @@
 
 #include "reed/firmware/record/candump_log.h"
 #include "reed/firmware/record/encode.h"
-#include "reed/firmware/record/event_log.h"
-#include "reed/firmware/record/lcm_publisher.h"
-#include "reed/firmware/record/rate_limit.h"
 #include "reed/firmware/record/time_base.h"
 #include "reed/firmware/record/timing_histograms.h"
 #include "reed/firmware/snapshot/snapshot_ring.h"
+#include "reed/telemetry/event_log.h"
+#include "reed/telemetry/lcm_publisher.h"
+#include "reed/telemetry/rate_limit.h"
 
 namespace reed::telemetry {
 
@@ -86,7 +86,7 @@ class Recorder {
   EventLog log_;
   CandumpLog candump_;
   LcmPublisher publisher_;
-  Encoder encoder_;
+  MessageEncoder encoder_;
   RateLimit cycle_limit_, event_limit_;
   RecorderReport report_;
   TimingHistograms histograms_;

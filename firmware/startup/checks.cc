@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 
 #include "reed/bus/codec/messages.h"
 #include "reed/bus/codec/wire_time.h"
@@ -12,9 +11,6 @@
 
 namespace reed {
 namespace {
-
-std::atomic<bool> stop_wanted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
 
 void RefuseBudgetBelowWire(const char* key, double budget_us, double wire_us, const char* frames) {
   if (budget_us + 0.5 >= wire_us) return;
@@ -82,17 +78,6 @@ void RefuseSecondController(bus::Transport& transport) {
                        transport.interface() + "; stop it, or choose another bus with --bus");
     }
   }
-}
-
-const std::atomic<bool>& StopFlag() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  struct sigaction hangup {};
-  sigaction(SIGHUP, nullptr, &hangup);  // a terminal that is closed stops the arm in order, but for nohup
-  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
-  return stop_wanted;
 }
 
 }  // namespace reed

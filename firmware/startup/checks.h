@@ -1,7 +1,6 @@
 // What is checked on the ground, before anything moves. RT: set-up only.
 #pragma once
 
-#include <atomic>
 #include <stdexcept>
 
 #include "reed/bus/transport/transport.h"
@@ -29,8 +28,5 @@ class BusError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// SIGINT and SIGTERM set the flag instead of ending the process.
-const std::atomic<bool>& StopFlag();
 
 }  // namespace reed

@@ -53,7 +53,7 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
 }
 
 void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept {
-  std::array<bus::Frame, bus::kMaxJoints + 1> batch;
+  std::array<bus::Frame, kMaxJoints + 1> batch;
   std::size_t size = 0;
   for (int i = 0; i < measurement.dof; ++i) {
     bus::JointStateMessage joint = measurement.joints[static_cast<std::size_t>(i)];

@@ -1,4 +1,4 @@
-#include "reed/firmware/record/lcm_publisher.h"
+#include "reed/telemetry/lcm_publisher.h"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "reed/firmware/record/encode.h"
-#include "reed/firmware/record/sink_report.h"
+#include "reed/telemetry/message.h"
+#include "reed/telemetry/sink_report.h"
 
 namespace reed::telemetry {
 
