@@ -98,6 +98,12 @@ struct Decoded {
   CommandMessage command;
 };
 
+/// Whether somebody really sent it as what it says it is, usable or not. A damaged frame proves nothing, not even who sent it.
+constexpr bool IsGenuine(const Decoded& decoded) noexcept {
+  return decoded.reject != Reject::kUnknownId && decoded.reject != Reject::kLength &&
+         decoded.reject != Reject::kCrc;
+}
+
 /// Receiver counters, one cell per reason. frames lost are those the E2E counters prove were sent but not
 /// seen.
 struct DecodeCounters {

@@ -106,7 +106,7 @@ class ArmBus {
         break;
       case bus::MessageKind::kSync:
       case bus::MessageKind::kCommand:
-        measurement_.foreign_controller = true;
+        measurement_.foreign_controller = measurement_.foreign_controller || bus::IsGenuine(decoded);
         break;
       case bus::MessageKind::kUnknown:
         break;

@@ -72,8 +72,10 @@ void RefuseSecondController(bus::Transport& transport) {
   while (clock.NowNs() < end_ns) {
     const int count = transport.Receive(frames, 1, end_ns);
     for (int i = 0; i < count; ++i) {
-      const bus::MessageKind kind = decoder.Decode(frames[static_cast<std::size_t>(i)]).kind;
-      if (kind == bus::MessageKind::kSync || kind == bus::MessageKind::kCommand)
+      const bus::Decoded decoded = decoder.Decode(frames[static_cast<std::size_t>(i)]);
+      const bool of_a_controller =
+          decoded.kind == bus::MessageKind::kSync || decoded.kind == bus::MessageKind::kCommand;
+      if (of_a_controller && bus::IsGenuine(decoded))
         throw BusError("another controller already sends on " + transport.kind() + ":" +
                        transport.interface() + "; stop it, or choose another bus with --bus");
     }

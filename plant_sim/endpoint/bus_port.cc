@@ -21,8 +21,9 @@ std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
     return in;
   }
   if (decoded.reject != bus::Reject::kNone) ++rejected_;
-  if (decoded.kind == bus::MessageKind::kJointState || decoded.kind == bus::MessageKind::kWrench)
-    another_arm_ = true;
+  const bool of_an_arm =
+      decoded.kind == bus::MessageKind::kJointState || decoded.kind == bus::MessageKind::kWrench;
+  if (of_an_arm && bus::IsGenuine(decoded)) another_arm_ = true;
   return std::nullopt;
 }
 

@@ -119,6 +119,17 @@ TEST_F(Lockstep, FramesOfNobodysConcernAreIgnored) {
   EXPECT_TRUE(wire_.controller.inbox.empty());
 }
 
+TEST_F(Lockstep, ADamagedStateFrameIsNoOtherArm) {
+  bus::Encoder another_arm;
+  bus::Frame state = another_arm.JointState(0, {});
+  state.data[8] ^= 1U;
+  controller_.Send(state);
+  controller_.Sync(0);
+  endpoint_->Poll(0);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kAnotherArm), 0);
+  EXPECT_EQ(endpoint_->rejected(), 1U);
+}
+
 TEST_F(Lockstep, AnotherArmOnTheBusIsToldOnceAndAnswersGoOn) {
   bus::Encoder another_arm;
   for (std::uint32_t k = 0; k < 3; ++k) {
