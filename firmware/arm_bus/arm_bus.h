@@ -150,13 +150,13 @@ class ArmBus {
       return;
     }
     const bus::WrenchMessage& wrench = decoded.wrench;
-    const std::int64_t late = static_cast<std::int64_t>(cycle_) - static_cast<std::int64_t>(wrench.cycle);
+    const auto late = static_cast<std::int32_t>(cycle_ - wrench.cycle);  // modulo 2^32
     if (late > 0) ++late_;
     wrench_came_ = wrench_came_ || late == 0;
     if (!waited_for || late < 0 || late >= measurement_.wrench_age) return;
     measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
     measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
-    measurement_.wrench_age = static_cast<int>(late);
+    measurement_.wrench_age = late;
   }
 
   bus::Transport& transport_;

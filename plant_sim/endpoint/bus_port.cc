@@ -29,7 +29,7 @@ std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
 
 /// A controller that was started anew begins its counters anew, so its first frames look repeated or out of
 /// sequence to a receiver that followed its predecessor. A SYNC moves nothing by itself; it is therefore read
-/// afresh, and its cycle number tells a restart (not after the last one) from a gap (after it). The same
+/// afresh, and its cycle number tells a restart (not soon after the last one) from a gap (soon after it). The same
 /// frame twice is neither, except that the first one of a run may be the first of a second run: answering t =
 /// 0 once more harms nobody.
 std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept {
@@ -44,11 +44,15 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
   Incoming in;
   in.kind = Incoming::Kind::kSync;
   in.sync = own.sync;
-  in.new_controller = !last_cycle_ || own.sync.cycle <= *last_cycle_;
+  const std::uint32_t ahead =
+      own.sync.cycle - last_cycle_.value_or(own.sync.cycle);  // modulo 2^32, as the number is
+  in.new_controller = ahead == 0 || ahead > kLongestGap;
   if (in.new_controller) {
     decoder_ = fresh;
     first_cycle_ = own.sync.cycle;
   }
+  count_ = in.new_controller ? own.sync.cycle : count_ + ahead;
+  in.count = count_;
   last_cycle_ = own.sync.cycle;
   return in;
 }

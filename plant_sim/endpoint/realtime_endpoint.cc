@@ -66,7 +66,7 @@ std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
 
 /// A command is an answer to a SYNC of the last few periods; an older one is a stray of another controller.
 void WallEndpoint::OnCommand(const bus::CommandMessage& command) {
-  const bool recent = syncs() > 0 && command.cycle <= cycle_ && cycle_ - command.cycle < timeout_periods_;
+  const bool recent = syncs() > 0 && cycle_ - command.cycle < timeout_periods_;  // modulo 2^32
   if (!recent || !mutable_robot().Command(command)) CountRefusedCommand();
 }
 

@@ -232,5 +232,21 @@ TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
     EXPECT_EQ(command.command.torque_Nm[i], 0.0) << "a joint that is not there gets no torque";
 }
 
+TEST_F(ArmBusTest, AWrenchOfTheCycleBeforeTheNumberWrapsIsOneCycleLate) {
+  constexpr std::uint32_t kLast = 0xFFFFFFFF;
+  GoodCycle(kLast - 1);
+  Sync(kLast);
+  Put(Wrench(kLast - 1, 5.0));
+  PutAll(kLast);
+  Receive();
+  Sync(0);
+  Put(Wrench(kLast, 7.0));
+  PutAll(0);
+  EXPECT_TRUE(Receive());
+  EXPECT_EQ(seen().wrench_age, 1);
+  EXPECT_EQ(seen().force[2], 7.0);
+  EXPECT_EQ(seen().OldestAge(), 0);
+}
+
 }  // namespace
 }  // namespace reed

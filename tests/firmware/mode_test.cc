@@ -59,6 +59,8 @@ class Walk {
   DriveRequest asked_ = DriveRequest::kOff;
 };
 
+static_assert(sizeof(Supervisor(true).cycles_in_mode()) == 8, "2^31 cycles are 25 days at 1 kHz");
+
 TEST(Supervisor, AHealthyArmWithTheWishGoesOffReadyActive) {
   Walk walk(true);
   walk.Cycles(Supervisor::kFreshInRow - 1);
