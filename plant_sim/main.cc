@@ -2,6 +2,8 @@
 //
 //   frames -> BusPort -> Robot (DriveChain -> ArmPlant -> sensors) -> BusPort -> frames
 //                          `-> Journal -> Publisher (own thread) -> event log, LCM, terminal
+#include <sched.h>
+
 #include <atomic>
 #include <cstdio>
 #include <exception>
@@ -54,6 +56,8 @@ void Serve(Endpoint& endpoint, double duration_s, const std::atomic<bool>& stop_
     const bool stop = stop_wanted.load(std::memory_order_relaxed);
     const bool busy = endpoint.Poll(stop ? 0 : rt::NowNs() + kStopCheck_ns);
     if (stop && !busy) return;
+    if (!busy)
+      sched_yield();  // a flood of others' frames must not keep the controller from the core they share
   }
 }
 

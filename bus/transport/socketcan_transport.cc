@@ -73,7 +73,7 @@ void SetFilters(int fd) {
 
 }  // namespace
 
-SocketCanTransport::SocketCanTransport(const std::string& interface)
+SocketCanTransport::SocketCanTransport(const std::string& interface, Identifiers identifiers)
     : interface_(interface), socket_(OpenSocket(interface)) {
   const int fd = socket_.get();
   sockaddr_can address{};
@@ -82,7 +82,7 @@ SocketCanTransport::SocketCanTransport(const std::string& interface)
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, 1, "CAN FD frames");
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 0, "own frames off");
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK}, "CAN error frames");
-  SetFilters(fd);
+  if (identifiers == Identifiers::kOfTheDbc) SetFilters(fd);
   SetReceiveQueue(fd);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0) {
     Fail(interface, "cannot be used: " + rt::ErrnoText(), "see ip -details link show " + interface);

@@ -14,6 +14,7 @@
 #include "reed/bus/transport/msgpack_frame.h"
 #include "reed/bus/transport/socket_options.h"
 #include "reed/rt/errno_text.h"
+#include "reed_layout.h"
 
 namespace reed::bus {
 namespace {
@@ -68,10 +69,18 @@ bool DropOwn(int fd, in_port_t own_port) {
   return setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
 }
 
+bool IsOfTheDbc(std::uint32_t id) noexcept {
+  return std::any_of(layout::kFrames.begin(), layout::kFrames.end(),
+                     [id](const FrameLayout& frame) { return frame.id == id; });
+}
+
 }  // namespace
 
-UdpTransport::UdpTransport(const UdpAddress& address)
-    : address_(address), send_socket_(OpenSocket(address)), receive_socket_(OpenSocket(address)) {
+UdpTransport::UdpTransport(const UdpAddress& address, Identifiers identifiers)
+    : address_(address),
+      identifiers_(identifiers),
+      send_socket_(OpenSocket(address)),
+      receive_socket_(OpenSocket(address)) {
   const sockaddr_in group = Parse(address);
   const int out = send_socket_.get();
   SetOption(out, IPPROTO_IP, IP_MULTICAST_IF, OnLoopback(group.sin_addr), "multicast on loopback");
@@ -124,7 +133,10 @@ Incoming UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
   if (!IsFromThisMachine(datagram.source) || datagram.source.sin_port == own_port_)
     return Incoming::kNotForUs;
   if (datagram.truncated) return Incoming::kMalformed;
-  return UnpackFrame(datagram.bytes, out);
+  const Incoming found = UnpackFrame(datagram.bytes, out);
+  const bool foreign =
+      found == Incoming::kFrame && identifiers_ == Identifiers::kOfTheDbc && !IsOfTheDbc(out.id);
+  return foreign ? Incoming::kForeignId : found;
 }
 
 std::size_t UdpTransport::Write(const Frame& frame,

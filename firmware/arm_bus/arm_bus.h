@@ -45,10 +45,13 @@ class ArmBus {
   bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
     std::int64_t wait_end_ns = std::min(deadline_ns, tap.time_ns + kOneWait_ns);
     for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
+      const std::uint64_t passed_over = PassedOver();
       const int count = transport_.Receive(received_, Missing(), wait_end_ns);
       const std::int64_t now_ns = rt::MonotonicClock{}.NowNs();  // one batch, one reading
       const std::int32_t at_ns = rt::ShortNs(now_ns - tap.time_ns);
       if (count == 0) {
+        if (now_ns < wait_end_ns && PassedOver() != passed_over)
+          continue;                                 // others' frames: it looked at enough of them
         const bool gave_up = now_ns < wait_end_ns;  // the transport itself: nothing can come any more
         if (wait_end_ns == deadline_ns || MissingJoints() == 0 || gave_up) break;
       }
@@ -86,6 +89,7 @@ class ArmBus {
   /// there by then was not sent.
   static constexpr std::int64_t kOneWait_ns = 100'000'000;
 
+  std::uint64_t PassedOver() const noexcept { return bus::PassedOver(transport_.counters()); }
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
 

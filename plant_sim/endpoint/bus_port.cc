@@ -3,9 +3,9 @@
 namespace reed::plant {
 
 std::span<const Incoming> BusPort::Receive(std::int64_t deadline_ns) noexcept {
-  const int received = transport_.Receive(frames_, 1, deadline_ns);
+  received_ = transport_.Receive(frames_, 1, deadline_ns);
   std::size_t used = 0;
-  for (int i = 0; i < received; ++i) {
+  for (int i = 0; i < received_; ++i) {
     if (const auto in = Read(frames_[static_cast<std::size_t>(i)])) incoming_[used++] = *in;
   }
   return std::span(incoming_).first(used);

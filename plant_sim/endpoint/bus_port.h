@@ -34,6 +34,8 @@ class BusPort {
   /// did not pass since the last answer as the controller's did.
   void Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept;
 
+  /// Frames that the last Receive took off the bus, of use or not.
+  int received() const noexcept { return received_; }
   bool alive() const noexcept { return transport_.alive(); }
   std::uint64_t rejected() const noexcept { return rejected_; }
   /// Somebody else has answered as joint or wrist.
@@ -53,6 +55,7 @@ class BusPort {
   std::array<bus::Frame, kBatch> frames_;
   std::array<Incoming, kBatch> incoming_;
   std::optional<std::uint32_t> first_cycle_, last_cycle_;  // of the present controller
+  int received_ = 0;
   std::int64_t count_ = 0;
   std::uint64_t rejected_ = 0;
   bool another_arm_ = false;

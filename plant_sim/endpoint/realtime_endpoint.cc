@@ -22,6 +22,7 @@ WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, 
 void WallEndpoint::Handle(std::span<const Incoming> incoming) {
   const std::int64_t now_ns = clock_.monotonic_ns();
   const std::int64_t arm_ns = ArmTime(now_ns);
+  if (incoming.empty() && heard_others() && arm_ns - integrated_ns_ < kIdle_ns) return;
   if (syncs() > 0) CatchUp(arm_ns);
   for (const Incoming& in : incoming) {
     if (outcome() != Outcome::kRunning) return;

@@ -117,6 +117,28 @@ TEST_F(UdpBus, NeighboursOfEqualSizeStayDatagramsOfTheirOwnInOrder) {  // UDP_SE
   EXPECT_EQ(a_.counters().frames_tx, sent.size());
 }
 
+TEST_F(UdpBus, AnIdentifierThatIsNotInTheDbcIsCountedAndHandedToNobody) {
+  Frame foreign = NumberedFrame(1);
+  foreign.id = 0x7AB;
+  ASSERT_EQ(a_.Send(std::array{foreign, NumberedFrame(2)}), 2);
+  const std::vector<Frame> got = Take(b_, 1);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(NumberOf(got[0]), 2);
+  EXPECT_EQ(b_.counters().foreign_ids, 1U);
+  EXPECT_EQ(b_.counters().frames_rx, 1U);
+}
+
+TEST_F(UdpBus, AFloodOfForeignFramesEndsAReceiveLongBeforeItsDeadline) {
+  Frame foreign = NumberedFrame(1);
+  foreign.id = 0x7AB;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(a_.Send(std::array{foreign}), 1);
+  std::vector<Frame> out(64);
+  const std::int64_t start_ns = Now_ns();
+  EXPECT_EQ(b_.Receive(out, 1, start_ns + 10 * kSecond_ns), 0);
+  EXPECT_LT(Now_ns() - start_ns, 5 * kSecond_ns);
+  EXPECT_GE(b_.counters().foreign_ids, 64U);
+}
+
 TEST_F(UdpBus, OwnFramesAreNotReceived) {
   const std::array one{NumberedFrame(1)}, two{NumberedFrame(2)};
   ASSERT_EQ(a_.Send(one), 1);
