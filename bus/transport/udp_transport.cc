@@ -98,6 +98,8 @@ UdpTransport::UdpTransport(const UdpAddress& address, Identifiers identifiers)
   const int in = receive_socket_.get();
   SetOption(in, SOL_SOCKET, SO_REUSEADDR, 1, "shared address");
   SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
+  // Without this, a group that any socket has joined on any interface is heard: a frame of another machine, too.
+  SetOption(in, IPPROTO_IP, IP_MULTICAST_ALL, 0, "the joined interface only");
   SetReceiveQueue(in);
   if (DropOwn(in, own_port_)) DropsOwn();
   if (bind(in, Generic(group), sizeof group) < 0) {
@@ -106,7 +108,7 @@ UdpTransport::UdpTransport(const UdpAddress& address, Identifiers identifiers)
   const ip_mreqn membership = OnLoopback(group.sin_addr);
   if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) < 0) FailNoRoute(address);
 
-  // A tool that joined by another interface still sends from one of this machine's addresses.
+  // What travels on the loopback may come from any of this machine's addresses.
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) == 0) {
     std::size_t count = 0;
