@@ -10,6 +10,7 @@
 #include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/record/publisher.h"
 #include "reed/rt/monotonic.h"
+#include "reed/rt/program.h"
 #include "reed/rt/signals.h"
 
 namespace reed::plant {
@@ -51,7 +52,9 @@ int Run(const std::string& bus, int core) {
 }  // namespace reed::plant
 
 int main(int argc, char** argv) {
-  if (argc < 4) return 2;
-  return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2],
-                          static_cast<int>(std::strtol(argv[3], nullptr, 10)));
+  if (argc < 4) return reed::rt::kBadInput;
+  return reed::rt::RunProgram("reed_still_plant", [&] {
+    return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2],
+                            static_cast<int>(std::strtol(argv[3], nullptr, 10)));
+  });
 }

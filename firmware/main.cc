@@ -5,7 +5,6 @@
 //             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <thread>
 
@@ -19,6 +18,7 @@
 #include "reed/firmware/startup/checks.h"
 #include "reed/firmware/startup/loop_options.h"
 #include "reed/rt/heap_guard.h"
+#include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
 #include "reed/rt/signals.h"
 #include "reed/rt/syscall_guard.h"
@@ -174,14 +174,5 @@ int Run(const Options& options) {
 }  // namespace reed
 
 int main(int argc, char** argv) {
-  try {
-    return reed::Run(reed::ParseOptions(argc, argv));
-  } catch (const reed::BusError& error) {
-    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
-    return 3;
-  } catch (
-      const std::exception& error) {  // everything that can be thrown is thrown before the loop, by bad input
-    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
-    return 2;
-  }
+  return reed::rt::RunProgram("reed_firmware", [&] { return reed::Run(reed::ParseOptions(argc, argv)); });
 }

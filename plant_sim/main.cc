@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -22,6 +21,7 @@
 #include "reed/plant/process/stall_watch.h"
 #include "reed/plant/record/publisher.h"
 #include "reed/rt/monotonic.h"
+#include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
 #include "reed/rt/signals.h"
 
@@ -67,7 +67,8 @@ int Run(const Options& options) {
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
-  Publisher publisher({options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
+  Publisher publisher(
+      {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
   StallWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
       MakeEndpoint(options, scenario, *transport, body, publisher, watch);
@@ -99,11 +100,6 @@ int Run(const Options& options) {
 }  // namespace reed::plant
 
 int main(int argc, char** argv) {
-  try {
-    return reed::plant::Run(reed::plant::ParseOptions(argc, argv));
-  } catch (
-      const std::exception& error) {  // everything that can be thrown is thrown before the loop, by bad input
-    std::fprintf(stderr, "reed_plant_sim: %s\n", error.what());
-    return 2;
-  }
+  return reed::rt::RunProgram("reed_plant_sim",
+                              [&] { return reed::plant::Run(reed::plant::ParseOptions(argc, argv)); });
 }

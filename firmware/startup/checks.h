@@ -5,6 +5,7 @@
 
 #include "reed/bus/transport/transport.h"
 #include "reed/config/description/scenario.h"
+#include "reed/rt/program.h"
 
 namespace reed {
 
@@ -24,9 +25,9 @@ void RefuseLockstepOnRealDrives(const bus::Transport& transport);
 void RefuseSecondController(bus::Transport& transport);
 
 /// The bus is there but not usable: exit status 3.
-class BusError : public std::runtime_error {
+class BusError : public rt::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit BusError(const std::string& line) : rt::Failure(line, rt::kDied) {}
 };
 
 }  // namespace reed
