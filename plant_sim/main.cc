@@ -68,7 +68,7 @@ int Run(const Options& options) {
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   Publisher publisher(
-      {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
+      {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
   StallWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
       MakeEndpoint(options, scenario, *transport, body, publisher, watch);

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "reed/rt/clock.h"
+#include "reed/rt/patience.h"
 
 namespace reed::telemetry {
 namespace {
@@ -53,6 +54,7 @@ void Recorder::RecordRun(reed::run_t run) {
 
 void Recorder::Start() {
   stop_.store(false, std::memory_order_relaxed);
+  done_.store(false, std::memory_order_relaxed);
   thread_ = std::thread([this] { Run(); });
   pthread_setname_np(thread_.native_handle(), "reed-telemetry");
 }
@@ -60,6 +62,7 @@ void Recorder::Start() {
 void Recorder::Stop() {
   if (!thread_.joinable()) return;
   stop_.store(true, std::memory_order_release);
+  if (!rt::AwaitDone(done_, progress_)) rt::AbandonProcess(rt::TakesNothing(*writing_.load()));
   thread_.join();
 }
 
@@ -92,6 +95,7 @@ void Recorder::Run() {
   }
   if (report_.snapshots % kHistogramPeriodCycles != 0) RecordHistograms();
   Flush();
+  done_.store(true, std::memory_order_release);
 }
 
 bool Recorder::DrainBatch() {
@@ -101,6 +105,7 @@ bool Recorder::DrainBatch() {
     if (snapshot == nullptr) return true;
     Record(*snapshot);
     ring_.PopFront();
+    progress_.fetch_add(1, std::memory_order_relaxed);
   }
   return false;
 }
@@ -121,6 +126,7 @@ void Recorder::Record(const Snapshot& snapshot) {
   }
   if (snapshot.cycle >= next_bus_cycle_) RecordBus(snapshot.bus, snapshot.cycle, utime);
 
+  writing_.store(&candump_.report().name, std::memory_order_relaxed);
   for (int i = 0; i < snapshot.num_frames; ++i) {
     const RecordedFrame& recorded = snapshot.frames[static_cast<std::size_t>(i)];
     candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
@@ -147,12 +153,15 @@ void Recorder::RecordBus(const BusCounters& bus, std::int64_t cycle, std::int64_
 }
 
 void Recorder::Emit(const char* channel, Bytes message, std::int64_t utime, bool publish) {
+  writing_.store(&log_.report().name, std::memory_order_relaxed);
   log_.Write(channel, message, utime);
   if (publish) publisher_.Publish(channel, message);
 }
 
 void Recorder::Flush() {
+  writing_.store(&log_.report().name, std::memory_order_relaxed);
   log_.Flush();
+  writing_.store(&candump_.report().name, std::memory_order_relaxed);
   candump_.Flush();
 }
 

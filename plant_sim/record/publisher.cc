@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "reed/rt/monotonic.h"
+#include "reed/rt/patience.h"
 
 namespace reed::plant {
 namespace {
@@ -29,7 +30,7 @@ Publisher::~Publisher() { Finish(); }
 
 void Publisher::Put(const Record& record) noexcept {
   while (!queue_.Push(record)) {
-    if (config_.when_full == WhenFull::kDrop) {
+    if (config_.when_full == WhenFull::kDrop || OutOfPatience()) {
       ++dropped_;
       return;
     }
@@ -37,9 +38,17 @@ void Publisher::Put(const Record& record) noexcept {
   }
 }
 
+bool Publisher::OutOfPatience() noexcept {
+  if (config_.stop == nullptr || !config_.stop->load(std::memory_order_relaxed)) return false;
+  const std::int64_t now_ns = rt::NowNs();
+  if (patient_until_ns_ == 0) patient_until_ns_ = now_ns + rt::kDiskPatience_ns;
+  return now_ns > patient_until_ns_;
+}
+
 bool Publisher::Finish() {
   finish_.store(true, std::memory_order_release);
   if (thread_.joinable()) {
+    if (!rt::AwaitDone(done_, progress_)) rt::AbandonProcess(rt::TakesNothing(config_.log_path));
     thread_.join();
     const telemetry::SinkReport& log = log_.report();
     if (log.lost > 0) Complain(log.Loss("records"));
@@ -65,6 +74,7 @@ void Publisher::Run() {
       std::this_thread::sleep_for(std::chrono::milliseconds(network_.enabled() ? 2 : 10));
   }
   log_.Flush();
+  done_.store(true, std::memory_order_release);
 }
 
 bool Publisher::DrainBatch() {
@@ -74,6 +84,7 @@ bool Publisher::DrainBatch() {
     if (record == nullptr) return true;
     Publish(*record);
     queue_.PopFront();
+    progress_.fetch_add(1, std::memory_order_relaxed);
   }
   return false;
 }

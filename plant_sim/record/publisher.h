@@ -22,6 +22,8 @@ struct PublisherConfig {
   bool network = true;
   bool console = true;  // events as lines on standard output
   WhenFull when_full = WhenFull::kDrop;
+  const std::atomic<bool>* stop =
+      nullptr;  // kWait: once set, a log that takes nothing is waited for no longer
 };
 
 /// Put is called by one thread. The constructor throws std::runtime_error when the log cannot be created; a
@@ -37,7 +39,8 @@ class Publisher final : public Recorder {
   void Put(const Record& record) noexcept override;
 
   /// Everything put so far reaches log and network, the log is on its file, the thread has ended. False when
-  /// the log is incomplete. Called by the destructor if not before.
+  /// the log is incomplete. Called by the destructor if not before. A log that takes nothing for
+  /// rt::kDiskPatience_ns ends the process, which cannot end the thread.
   bool Finish();
 
   std::int64_t dropped() const noexcept { return dropped_; }
@@ -47,6 +50,8 @@ class Publisher final : public Recorder {
   /// Per channel: what a listener is spared in lockstep.
   static constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 100;
 
+  /// After the stop that the run shall have, a disk is waited for so long in all.
+  bool OutOfPatience() noexcept;
   void Run();
   bool DrainBatch();  // true: the queue is empty
   void Publish(const Record& record);
@@ -59,7 +64,9 @@ class Publisher final : public Recorder {
   telemetry::RateLimit plant_limit_{kPublishPerSecond, kPublishBurst},
       event_limit_{kPublishPerSecond, kPublishBurst};
   std::int64_t dropped_ = 0;
-  std::atomic<bool> finish_{false};
+  std::int64_t patient_until_ns_ = 0;
+  std::atomic<bool> finish_{false}, done_{false};
+  std::atomic<std::int64_t> progress_{0};  // records that are through
   std::thread thread_;
 };
 

@@ -211,6 +211,27 @@ def test_a_whole_run_by_hand_records_and_ends_by_itself(plant, tmp_path):
     assert log.stat().st_size > 300 * 500
 
 
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_a_disk_that_takes_nothing_cannot_keep_a_stopped_lockstep_run(program, plant, tmp_path):
+    """A pipe whose reader has stopped reading stands for the disk: the program obeys SIGINT, names the file and ends with 3."""
+    stuck = tmp_path / "stuck"
+    os.mkfifo(stuck)
+    reader = os.open(stuck, os.O_RDONLY | os.O_NONBLOCK)
+    own = {name: ["--log", stuck] if name == program else ["--log", tmp_path / name] for name in PROGRAMS}
+    arm = start(PLANT, "--config", "press_known", "--bus", bus(43312), "--clock", "lockstep", "--no-lcm", *own["reed_plant_sim"])
+    assert "waiting for SYNC" in arm.stdout.readline()
+    firmware = start(FIRMWARE, "--config", "press_known", "--bus", bus(43312), "--clock", "lockstep", "--no-lcm", *own["reed_firmware"])
+    time.sleep(3.0)  # the pipe is full, then the queue, then the program waits
+    stopped = {"reed_firmware": firmware, "reed_plant_sim": arm}[program]
+    status, _, error = end(stopped)
+    for other in (firmware, arm):
+        other.kill()
+        other.wait()
+    os.close(reader)
+    assert status == 3, error
+    assert f"{program}: {stuck}: takes nothing any more" in error, error
+
+
 @pytest.mark.parametrize("limit", ["file size", "reader"])
 def test_a_log_that_cannot_go_on_costs_its_records_and_no_run(limit, plant, tmp_path):
     """A file that may not grow (SIGXFSZ) and a reader that leaves (SIGPIPE): the loop goes on to its end, the loss is counted."""

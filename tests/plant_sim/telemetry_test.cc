@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -146,6 +149,23 @@ TEST_F(PublisherLog, AFullDiskIsReportedAndDelaysNobody) {
   Publisher publisher({"/dev/full", false, false, WhenFull::kWait});
   for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));
   EXPECT_FALSE(publisher.Finish());
+}
+
+int PublishIntoAPipeThatNobodyReads(const std::string& fifo) {
+  if (mkfifo(fifo.c_str(), 0600) != 0) return 99;
+  const int reader = open(fifo.c_str(), O_RDONLY | O_NONBLOCK);
+  const std::atomic<bool> stop{true};
+  Publisher publisher({fifo, false, false, WhenFull::kWait, &stop});
+  for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));  // ends, although nothing is taken
+  std::fprintf(stderr, "dropped %d, ", publisher.dropped() > 0 ? 1 : 0);
+  publisher.Finish();
+  close(reader);
+  return 0;
+}
+
+TEST_F(PublisherLog, ALogThatTakesNothingIsNamedAndGivenUpOnceTheRunShallStop) {
+  EXPECT_EXIT(_exit(PublishIntoAPipeThatNobodyReads(path_)), ::testing::ExitedWithCode(3),
+              "dropped 1, .*lcmlog: takes nothing any more and was given up");
 }
 
 TEST_F(PublisherLog, APathThatCannotBeWrittenIsOneClearError) {
