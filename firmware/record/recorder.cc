@@ -72,6 +72,7 @@ RecorderReport Recorder::Close() {
   report_.log = log_.report();
   report_.candump = candump_.report();
   report_.lcm = publisher_.report();
+  if (!publisher_.enabled()) report_.lcm.problem.clear();  // was said at start: publish_problem()
   return report_;
 }
 
