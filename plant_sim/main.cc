@@ -18,6 +18,7 @@
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
 #include "reed/plant/process/realtime_wish.h"
+#include "reed/plant/process/second_arm.h"
 #include "reed/plant/process/stall_watch.h"
 #include "reed/plant/record/publisher.h"
 #include "reed/rt/monotonic.h"
@@ -67,6 +68,7 @@ int Run(const Options& options) {
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
+  RefuseSecondArm(*transport);
   Publisher publisher(
       {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
   StallWatch watch;

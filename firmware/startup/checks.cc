@@ -1,13 +1,11 @@
 #include "reed/firmware/startup/checks.h"
 
 #include <algorithm>
-#include <array>
 
-#include "reed/bus/codec/messages.h"
 #include "reed/bus/codec/wire_time.h"
+#include "reed/bus/listen/hears.h"
 #include "reed/config/schema/bound.h"
 #include "reed/config/schema/config_error.h"
-#include "reed/rt/clock.h"
 
 namespace reed {
 namespace {
@@ -64,22 +62,12 @@ void RefuseLockstepOnRealDrives(const bus::Transport& transport) {
 }
 
 void RefuseSecondController(bus::Transport& transport) {
-  constexpr std::int64_t kListen_ns = 60'000'000;  // three periods of the slowest rate, 50 Hz
-  const rt::MonotonicClock clock;
-  const std::int64_t end_ns = clock.NowNs() + kListen_ns;
-  bus::Decoder decoder;
-  std::array<bus::Frame, 32> frames{};
-  while (clock.NowNs() < end_ns) {
-    const int count = transport.Receive(frames, 1, end_ns);
-    for (int i = 0; i < count; ++i) {
-      const bus::Decoded decoded = decoder.Decode(frames[static_cast<std::size_t>(i)]);
-      const bool of_a_controller =
-          decoded.kind == bus::MessageKind::kSync || decoded.kind == bus::MessageKind::kCommand;
-      if (of_a_controller && bus::IsGenuine(decoded))
-        throw BusError("another controller already sends on " + transport.kind() + ":" +
-                       transport.interface() + "; stop it, or choose another bus with --bus");
-    }
-  }
+  const auto of_a_controller = [](bus::MessageKind kind) {
+    return kind == bus::MessageKind::kSync || kind == bus::MessageKind::kCommand;
+  };
+  if (bus::Hears(transport, of_a_controller))
+    throw BusError("another controller already sends on " + transport.kind() + ":" + transport.interface() +
+                   "; stop it, or choose another bus with --bus");
 }
 
 }  // namespace reed

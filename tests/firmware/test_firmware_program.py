@@ -1,5 +1,6 @@
 """reed_firmware and reed_plant_sim as processes: bad input and bad surroundings give one clear line and the right status."""
 
+import contextlib
 import os
 import pathlib
 import select
@@ -268,3 +269,20 @@ def test_closed_standard_streams_leave_a_whole_log(program, tmp_path):
     raw = log.read_bytes()
     assert not raw or raw.startswith(b"\xed\xa1\xda\x01"), raw[:80]
     assert b"reed_" not in raw.replace(b"REED_", b"")
+
+
+def test_a_second_arm_on_the_same_bus_is_refused_before_it_answers(plant):
+    """Unless the machine holds the first pair up while the second arm listens: then it is tried again."""
+    arm = plant(43315, "--clock", "lockstep")
+    for _ in range(5):
+        firmware = start(FIRMWARE, "--config", "press_known", "--bus", bus(43315), "--clock", "lockstep", "--no-lcm")
+        await_controller(arm)
+        second = start(PLANT, "--config", "press_known", "--bus", bus(43315), "--clock", "lockstep", "--no-lcm")
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            second.wait(timeout=5)
+        status, _, error = end(second)
+        end(firmware)
+        if status == 3:
+            break
+    assert status == 3
+    assert error == f"reed_plant_sim: another arm already answers on {bus(43315)}; end it, or choose another bus with --bus\n"
