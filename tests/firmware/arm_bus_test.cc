@@ -23,8 +23,8 @@ TEST_F(ArmBusTest, AFullAnswerIsFreshAndIsWhatTheJointsSaid) {
   }
   EXPECT_EQ(seen().wrench_age, 0);
   EXPECT_NEAR(seen().force.z(), 5.0, 1e-6);
-  EXPECT_TRUE(seen().AllDrives(bus::DriveState::kReady));
-  EXPECT_FALSE(seen().AllDrives(bus::DriveState::kEnabled));
+  EXPECT_TRUE(seen().AllDrives(DriveState::kReady));
+  EXPECT_FALSE(seen().AllDrives(DriveState::kEnabled));
 }
 
 TEST_F(ArmBusTest, TheOrderWithinABatchDoesNotMatter) {
@@ -150,7 +150,7 @@ TEST_F(ArmBusTest, AClockThatStoodStillIsBelievedOfASimulatedArmOnly) {
       state.clock_stood = stood;
       Put(peer.JointState(0, state));
       bus.Receive(0, tap_);
-      EXPECT_EQ(bus.measurement().clock_stood, stood && believed) << kind << " " << interface;
+      EXPECT_EQ(bus.clock_stood(), stood && believed) << kind << " " << interface;
     }
   }
 }
@@ -215,7 +215,7 @@ TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
 TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
   GoodCycle(0);
   Eigen::Vector3d tau(1.0, -2.0, 3.0);
-  bus_.SendCommand(bus::DriveRequest::kEnable, tau, 0, tap_);
+  bus_.SendCommand({DriveRequest::kEnable, tau}, 0, tap_);
   ASSERT_EQ(tap_.num_frames, kN + 3);
   EXPECT_EQ(tap_.frames[0].direction, telemetry::Direction::kSent);
   EXPECT_EQ(tap_.frames[0].frame.id, bus::layout::kSync.id);

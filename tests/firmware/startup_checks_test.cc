@@ -1,9 +1,8 @@
 // What is listened for before anything moves.
-#include "reed/firmware/startup/checks.h"
-
 #include <gtest/gtest.h>
 
 #include "reed/bus/codec/messages.h"
+#include "reed/firmware/startup/checks.h"
 #include "reed/tests/support/fake_transport.h"
 
 namespace reed {

@@ -1,6 +1,7 @@
 // Part 2 of the timing budget, in virtual time: the grid, overrun policies, stalls. No real waiting.
 #include <gtest/gtest.h>
 
+#include "reed/firmware/startup/loop_options.h"
 #include "reed/tests/timing/wall_loop_rig.h"
 
 namespace reed {
