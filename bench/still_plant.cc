@@ -7,9 +7,11 @@
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
-#include "reed/plant/process/realtime.h"
-#include "reed/plant/process/stop_signal.h"
+#include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/record/publisher.h"
+#include "reed/rt/monotonic.h"
+#include "reed/rt/program.h"
+#include "reed/rt/signals.h"
 
 namespace reed::plant {
 namespace {
@@ -20,6 +22,7 @@ class StillBody final : public ArmBody {
     truth_.motor_angle_rad = truth_.joint_angle_rad = motor_angle_rad;
     truth_.motor_speed_radps = Eigen::VectorXd::Zero(motor_angle_rad.size());
   }
+  void StartSchedule() override {}
   void Advance(const Eigen::VectorXd& /*motor_torque_Nm*/, bool /*braked*/, double /*dt_s*/) override {}
   const Truth& truth() const override { return truth_; }
   bool healthy() const override { return true; }
@@ -32,16 +35,16 @@ class StillBody final : public ArmBody {
 int Run(const std::string& bus, int core) {
   Scenario scenario = LoadScenario("press_known");
   scenario.timing.plant_cpu = core;
-  InstallStopSignals();
+  const std::atomic<bool>& stop = rt::StopFlag();
   StillBody body;
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(bus);
   Publisher publisher({"", false, false, WhenFull::kDrop});
   WallEndpoint endpoint(scenario, *transport, body, publisher);
-  AskForRealtime(scenario.timing);
+  const rt::RealtimeScope realtime(RealtimeWish(scenario.timing));
   std::printf("waiting for SYNC\n");
   std::fflush(stdout);
-  const auto now_ns = WallClock::System().monotonic_ns;
-  while (!StopRequested()) endpoint.Poll(now_ns() + kStopCheck_ns);
+  constexpr std::int64_t kStopCheck_ns = 60'000'000;
+  while (!stop.load(std::memory_order_relaxed)) endpoint.Poll(rt::NowNs() + kStopCheck_ns);
   return 0;
 }
 
@@ -49,7 +52,9 @@ int Run(const std::string& bus, int core) {
 }  // namespace reed::plant
 
 int main(int argc, char** argv) {
-  if (argc < 4) return 2;
-  return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2],
-                          static_cast<int>(std::strtol(argv[3], nullptr, 10)));
+  if (argc < 4) return reed::rt::kBadInput;
+  return reed::rt::RunProgram("reed_still_plant", [&] {
+    return reed::plant::Run(std::string("udp:") + argv[1] + ":" + argv[2],
+                            static_cast<int>(std::strtol(argv[3], nullptr, 10)));
+  });
 }

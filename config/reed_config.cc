@@ -5,8 +5,11 @@
 #include <iostream>
 
 #include "reed/config/schema/scenario_file.h"
+#include "reed/rt/program.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int Run(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
   std::string scenario = "press_known", write_path;
   reed::LoadOptions options;
@@ -38,4 +41,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return reed::rt::RunProgram("reed_config", [&] { return Run(argc, argv); });
 }

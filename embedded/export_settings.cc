@@ -1,11 +1,11 @@
 // reed_export_settings SCENARIO [SECTION.KEY=VALUE …]: the controller's settings and its planned path as C++ arrays on
 // standard output, for a target without files.
 #include <cstdio>
-#include <exception>
 
 #include "reed/config/schema/scenario_file.h"
 #include "reed/embedded/settings_image.h"
 #include "reed/firmware/setup/settings.h"
+#include "reed/rt/program.h"
 
 namespace reed::embedded {
 namespace {
@@ -33,13 +33,10 @@ void Export(const Scenario& scenario) {
 }  // namespace reed::embedded
 
 int main(int argc, char** argv) {
-  try {
+  return reed::rt::RunProgram("reed_export_settings", [&] {
     reed::LoadOptions options;
     options.set.assign(argv + 2, argv + (argc > 2 ? argc : 2));
     reed::embedded::Export(reed::LoadScenario(argc > 1 ? argv[1] : "press_known", options));
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "reed_export_settings: %s\n", error.what());
-    return 2;
-  }
+  });
 }

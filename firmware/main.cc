@@ -5,7 +5,6 @@
 //             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <thread>
 
@@ -20,7 +19,9 @@
 #include "reed/firmware/startup/checks.h"
 #include "reed/firmware/startup/loop_options.h"
 #include "reed/rt/heap_guard.h"
+#include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
+#include "reed/rt/signals.h"
 #include "reed/rt/syscall_guard.h"
 #include "reed/rt/usage.h"
 
@@ -53,8 +54,8 @@ void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::
 
 Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& loop,
            bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
-  const std::atomic<bool>& stop = StopFlag();
-  const bool wall = options.clock == ClockKind::kWall;
+  const std::atomic<bool>& stop = rt::StopFlag();
+  const bool wall = options.clock == rt::ClockKind::kWall;
   rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0,
                              wall ? LoopCore(scenario.timing) : scenario.timing.cpu, true};
   if (wall && !options.seccomp) bus::ReceiveOnThisThread(transport);  // before memory is locked
@@ -86,7 +87,7 @@ run_t Describe(const Options& options, const Scenario& scenario, const bus::Tran
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
   run.law = options.law.empty() ? scenario.control.law : options.law;
-  run.clock = options.clock == ClockKind::kWall ? "wall" : "lockstep";
+  run.clock = options.clock == rt::ClockKind::kWall ? "wall" : "lockstep";
   run.dof = scenario.arm.dof();
   run.num_parameters = scenario.arm.num_parameters();
   run.rate_hz = scenario.timing.rate_hz;
@@ -124,14 +125,14 @@ int Run(const Options& options) {
   RefuseWireOverload(scenario);
   const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
-  if (options.clock == ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
+  if (options.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(scenario, *transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);
   RefuseSecondController(*transport);
 
   telemetry::SnapshotRing ring(kRingCapacity);
-  const telemetry::TimeBase time = options.clock == ClockKind::kWall
+  const telemetry::TimeBase time = options.clock == rt::ClockKind::kWall
                                        ? telemetry::TimeBase::Wall()
                                        : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
   const std::string can_interface = transport->kind() == "socketcan" ? transport->interface() : "udp";
@@ -176,14 +177,5 @@ int Run(const Options& options) {
 }  // namespace reed
 
 int main(int argc, char** argv) {
-  try {
-    return reed::Run(reed::ParseOptions(argc, argv));
-  } catch (const reed::BusError& error) {
-    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
-    return 3;
-  } catch (
-      const std::exception& error) {  // everything that can be thrown is thrown before the loop, by bad input
-    std::fprintf(stderr, "reed_firmware: %s\n", error.what());
-    return 2;
-  }
+  return reed::rt::RunProgram("reed_firmware", [&] { return reed::Run(reed::ParseOptions(argc, argv)); });
 }

@@ -39,7 +39,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_firmware: %s (reed_firmware --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
-  options.clock = clock == "wall" ? ClockKind::kWall : ClockKind::kLockstep;
+  options.clock = clock == "wall" ? rt::ClockKind::kWall : rt::ClockKind::kLockstep;
   return options;
 }
 

@@ -4,16 +4,15 @@
 #include <string>
 
 #include "reed/config/schema/scenario_file.h"
+#include "reed/rt/clock_kind.h"
 
 namespace reed {
-
-enum class ClockKind { kWall, kLockstep };
 
 struct Options {
   std::string config;
   LoadOptions load;
   std::string bus = "socketcan:vcan0";
-  ClockKind clock = ClockKind::kWall;
+  rt::ClockKind clock = rt::ClockKind::kWall;
   std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
   std::string log;      // LCM event log
   std::string candump;  // CAN log

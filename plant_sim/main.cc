@@ -2,10 +2,12 @@
 //
 //   frames -> BusPort -> Robot (DriveChain -> ArmPlant -> sensors) -> BusPort -> frames
 //                          `-> Journal -> Publisher (own thread) -> event log, LCM, terminal
-#include <chrono>
+#include <sched.h>
+
+#include <atomic>
 #include <cstdio>
-#include <exception>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -15,13 +17,20 @@
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
-#include "reed/plant/process/realtime.h"
+#include "reed/plant/process/realtime_wish.h"
+#include "reed/plant/process/second_arm.h"
 #include "reed/plant/process/stall_watch.h"
-#include "reed/plant/process/stop_signal.h"
 #include "reed/plant/record/publisher.h"
+#include "reed/rt/monotonic.h"
+#include "reed/rt/program.h"
+#include "reed/rt/realtime_scope.h"
+#include "reed/rt/signals.h"
 
 namespace reed::plant {
 namespace {
+
+/// A plant that waits for frames looks so often whether it shall stop.
+constexpr std::int64_t kStopCheck_ns = 60'000'000;
 
 void Say(const Options& options, const std::string& line) {
   if (options.quiet) return;
@@ -32,7 +41,7 @@ void Say(const Options& options, const std::string& line) {
 std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
                                        bus::Transport& transport, ArmBody& body, Recorder& recorder,
                                        const StallWatch& watch) {
-  if (options.clock == ClockKind::kLockstep) {
+  if (options.clock == rt::ClockKind::kLockstep) {
     return std::make_unique<LockstepEndpoint>(scenario, transport, body, recorder);
   }
   WallClock clock = WallClock::System();
@@ -42,30 +51,35 @@ std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& s
 
 /// Until the endpoint ends by itself, its time is over, or a signal asks; then what already lies on the bus
 /// is still answered, so that the record of a finished run is complete.
-void Serve(Endpoint& endpoint, double duration_s) {
-  const auto now_ns = WallClock::System().monotonic_ns;
+void Serve(Endpoint& endpoint, double duration_s, const std::atomic<bool>& stop_wanted) {
   const auto time_over = [&] { return duration_s > 0.0 && endpoint.robot().time_s() >= duration_s; };
   while (endpoint.outcome() == Outcome::kRunning && !time_over()) {
-    const bool stop = StopRequested();
-    const bool busy = endpoint.Poll(stop ? 0 : now_ns() + kStopCheck_ns);
+    const bool stop = stop_wanted.load(std::memory_order_relaxed);
+    const bool busy = endpoint.Poll(stop ? 0 : rt::NowNs() + kStopCheck_ns);
     if (stop && !busy) return;
+    if (!busy)
+      sched_yield();  // a flood of others' frames must not keep the controller from the core they share
   }
 }
 
 int Run(const Options& options) {
   const Scenario scenario = LoadScenario(options.config, options.load);
-  const bool wall = options.clock == ClockKind::kWall;
-  InstallStopSignals();
+  const bool wall = options.clock == rt::ClockKind::kWall;
+  const std::atomic<bool>& stop_wanted = rt::StopFlag();
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
-  Publisher publisher({options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
+  RefuseSecondArm(*transport);
+  Publisher publisher(
+      {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
   StallWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
       MakeEndpoint(options, scenario, *transport, body, publisher, watch);
+  std::optional<rt::RealtimeScope> realtime;
   if (wall) {
     const TimingConfig& timing = scenario.timing;
     std::vector<std::string> refused{watch.Start(PlantCore(timing), timing.priority + 1)};
-    for (const std::string& line : AskForRealtime(timing)) refused.push_back(line);
+    realtime.emplace(RealtimeWish(timing));
+    for (const std::string& line : realtime->report().Complaints()) refused.push_back(line);
     for (const std::string& line : refused) {
       if (!line.empty()) std::fprintf(stderr, "reed_plant_sim: %s\n", line.c_str());
     }
@@ -73,7 +87,7 @@ int Run(const Options& options) {
 
   Say(options, "arm " + scenario.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
                    ": waiting for SYNC on " + transport->interface());
-  Serve(*endpoint, options.duration_s);
+  Serve(*endpoint, options.duration_s, stop_wanted);
 
   const bool log_complete = publisher.Finish();
   Say(options, "done: " + std::to_string(endpoint->syncs()) + " cycles, " +
@@ -88,11 +102,6 @@ int Run(const Options& options) {
 }  // namespace reed::plant
 
 int main(int argc, char** argv) {
-  try {
-    return reed::plant::Run(reed::plant::ParseOptions(argc, argv));
-  } catch (
-      const std::exception& error) {  // everything that can be thrown is thrown before the loop, by bad input
-    std::fprintf(stderr, "reed_plant_sim: %s\n", error.what());
-    return 2;
-  }
+  return reed::rt::RunProgram("reed_plant_sim",
+                              [&] { return reed::plant::Run(reed::plant::ParseOptions(argc, argv)); });
 }

@@ -36,7 +36,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_plant_sim: %s (reed_plant_sim --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
-  options.clock = clock == "wall" ? ClockKind::kWall : ClockKind::kLockstep;
+  options.clock = clock == "wall" ? rt::ClockKind::kWall : rt::ClockKind::kLockstep;
   return options;
 }
 

@@ -4,16 +4,15 @@
 #include <string>
 
 #include "reed/config/schema/scenario_file.h"
+#include "reed/rt/clock_kind.h"
 
 namespace reed::plant {
-
-enum class ClockKind { kWall, kLockstep };
 
 struct Options {
   std::string config;
   LoadOptions load;
   std::string bus = "socketcan:vcan0";
-  ClockKind clock = ClockKind::kWall;
+  rt::ClockKind clock = rt::ClockKind::kWall;
   std::string log;
   double duration_s = 0.0;  // of plant time; 0: until a signal
   bool quiet = false;

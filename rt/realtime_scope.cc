@@ -5,11 +5,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 #include "reed/rt/errno_text.h"
+#include "reed/rt/rights.h"
 
 namespace reed::rt {
 namespace {
@@ -18,25 +18,22 @@ namespace {
 constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 constexpr std::size_t kSmallestPage = 4096;
 
-/// Lifts the soft limit as far as the hard one allows: what the machine would grant should not fail for want
-/// of asking.
-void RaiseSoftLimit(__rlimit_resource resource) {
-  rlimit limit{};
-  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return;
-  limit.rlim_cur = limit.rlim_max;
-  setrlimit(resource, &limit);
-}
-
 std::string HardLimit(__rlimit_resource resource) {
   rlimit limit{};
   getrlimit(resource, &limit);
   return limit.rlim_max == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_max);
 }
 
+/// Of the program that runs, for a line to copy.
+std::string ProgramPath() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).string();
+}
+
 void CheckOptions(const RealtimeOptions& options) {
   const long cores = sysconf(_SC_NPROCESSORS_CONF);
   if (options.cpu < -1 || options.cpu >= cores) {
-    throw std::invalid_argument("timing.cpu = " + std::to_string(options.cpu) +
+    throw std::invalid_argument(options.cpu_key + (" = " + std::to_string(options.cpu)) +
                                 ": allowed are the cores 0 to " + std::to_string(cores - 1) +
                                 " of this machine, or -1 to leave the choice");
   }
@@ -79,7 +76,7 @@ RealtimeScope::RealtimeScope(const RealtimeOptions& options) {
   // The order matters: the stack must be mapped before it is locked, and all of this is done before the
   // priority keeps others from their core.
   PrefaultStack();
-  if (options.lock_memory) LockMemory();
+  if (options.lock_memory) Lock(options.lock_later_pages);
   if (options.cpu >= 0) Pin(options.cpu);
   if (options.priority > 0) Raise(options.priority);
 }
@@ -91,25 +88,22 @@ RealtimeScope::~RealtimeScope() {
   if (old_timer_slack_ns_ > 0) prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(old_timer_slack_ns_));
 }
 
-void RealtimeScope::LockMemory() {
-  RaiseSoftLimit(RLIMIT_MEMLOCK);
-  // MCL_CURRENT alone: the loop allocates nothing later on, and MCL_FUTURE under a finite limit would make
-  // the ordinary threads' allocations fail.
-  if (mlockall(MCL_CURRENT) == 0) {
+void RealtimeScope::Lock(bool later_pages_too) {
+  // The pages of now alone, for a loop that allocates nothing later on: locking later ones under a finite limit
+  // makes the ordinary threads' allocations fail.
+  if (LockMemory(later_pages_too)) {
     report_.memory = {true, true, {}, {}};
     return;
   }
   report_.memory = Refused(
       std::string("memory not locked: ") + ErrnoText() + " (limit " + HardLimit(RLIMIT_MEMLOCK) + " bytes)",
       "write \"* - memlock unlimited\" to /etc/security/limits.d/90-reed.conf and log in again, "
-      "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
+      "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep " +
+          ProgramPath());
 }
 
 void RealtimeScope::Pin(int cpu) {
-  cpu_set_t cpus;
-  CPU_ZERO(&cpus);
-  CPU_SET(static_cast<std::size_t>(cpu), &cpus);
-  if (sched_setaffinity(0, sizeof cpus, &cpus) == 0) {
+  if (PinTo(cpu)) {
     report_.affinity = {true, true, {}, {}};
     report_.cpu = cpu;
     return;
@@ -121,10 +115,7 @@ void RealtimeScope::Pin(int cpu) {
 }
 
 void RealtimeScope::Raise(int priority) {
-  RaiseSoftLimit(RLIMIT_RTPRIO);
-  sched_param param{};
-  param.sched_priority = priority;
-  if (sched_setscheduler(0, SCHED_FIFO, &param) == 0) {
+  if (RaiseTo(priority)) {
     report_.fifo = {true, true, {}, {}};
     report_.scheduler = "fifo:" + std::to_string(priority);
     return;
@@ -132,7 +123,8 @@ void RealtimeScope::Raise(int priority) {
   report_.fifo = Refused("SCHED_FIFO " + std::to_string(priority) + " refused: " + ErrnoText() +
                              " (rtprio limit " + HardLimit(RLIMIT_RTPRIO) + ")",
                          "write \"* - rtprio 99\" to /etc/security/limits.d/90-reed.conf and log in again, "
-                         "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep reed_firmware");
+                         "or: sudo setcap cap_sys_nice,cap_ipc_lock+ep " +
+                             ProgramPath());
 }
 
 }  // namespace reed::rt

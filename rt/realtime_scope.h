@@ -10,9 +10,11 @@
 namespace reed::rt {
 
 struct RealtimeOptions {
-  int priority = 80;        // SCHED_FIFO 1 … 99; 0: stay an ordinary thread
-  int cpu = -1;             // core to pin the thread to, -1: none
-  bool lock_memory = true;  // no page of the program leaves memory
+  int priority = 80;                   // SCHED_FIFO 1 … 99; 0: stay an ordinary thread
+  int cpu = -1;                        // core to pin the thread to, -1: none
+  bool lock_memory = true;             // no page of the program leaves memory
+  bool lock_later_pages = false;       // nor any that comes later; for a program that goes on allocating
+  const char* cpu_key = "timing.cpu";  // where the core was asked for
 };
 
 /// One request and its answer.
@@ -55,7 +57,7 @@ class RealtimeScope {
  private:
   void Pin(int cpu);
   void Raise(int priority);
-  void LockMemory();
+  void Lock(bool later_pages_too);
 
   RealtimeReport report_;
   cpu_set_t old_cpus_{};

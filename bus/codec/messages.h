@@ -14,11 +14,10 @@
 
 #include "reed/bus/codec/e2e_profile5.h"
 #include "reed/bus/frame/frame.h"
+#include "reed/config/sizes/sizes.h"
 #include "reed_layout.h"
 
 namespace reed::bus {
-
-inline constexpr int kMaxJoints = 8;
 
 /// What the controller asks of the drives. Drives change state only on a change of request, in this order;
 /// a stream of torques alone never starts an arm.
@@ -98,6 +97,12 @@ struct Decoded {
   WrenchMessage wrench;
   CommandMessage command;
 };
+
+/// Whether somebody really sent it as what it says it is, usable or not. A damaged frame proves nothing, not even who sent it.
+constexpr bool IsGenuine(const Decoded& decoded) noexcept {
+  return decoded.reject != Reject::kUnknownId && decoded.reject != Reject::kLength &&
+         decoded.reject != Reject::kCrc;
+}
 
 /// Receiver counters, one cell per reason. frames lost are those the E2E counters prove were sent but not
 /// seen.

@@ -10,6 +10,8 @@ namespace {
 
 /// A flood of datagrams that are not for us may cost at most so many system calls per Receive.
 constexpr int kMaxBatchesPerDrain = 16;
+/// And so many of them may pass before a Receive that waits returns without a frame.
+constexpr std::uint64_t kMostPassedOver = 64;
 
 /// With this much time left a blocking receive, whose timeout the kernel rounds to its own tick, is exact
 /// enough.
@@ -31,14 +33,17 @@ void DatagramTransport::Use(int receive_fd, int send_fd) noexcept {
 int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept {
   const int enough = std::min(wanted, static_cast<int>(out.size()));
   if (uring_.is_open()) return ReceiveByUring(out, enough, deadline_ns);
+  const std::uint64_t enough_of_others = PassedOver(counters_) + kMostPassedOver;
   int count = 0;
-  while (count < enough && alive_ && deadline_ns - rt::NowNs() > kPatient_ns) {
+  while (count < enough && alive_ && PassedOver(counters_) < enough_of_others &&
+         deadline_ns - rt::NowNs() > kPatient_ns) {
     count += Await(out.subspan(static_cast<std::size_t>(count)), enough - count);
   }
   if (!alive_ || (count == enough && enough > 0)) return count;
   bool waiting = false;
   do {
-    waiting = count < enough && WaitReadable(receive_fd_, deadline_ns);
+    waiting =
+        count < enough && PassedOver(counters_) < enough_of_others && WaitReadable(receive_fd_, deadline_ns);
     count += Drain(out.subspan(static_cast<std::size_t>(count)));  // in vain or in time: takes what is there
   } while (waiting && alive_ && count < enough);
   return count;
@@ -56,6 +61,9 @@ bool DatagramTransport::Take(Incoming incoming) noexcept {
       [[fallthrough]];
     case Incoming::kErrorFrame:
       ++counters_.error_frames;
+      break;
+    case Incoming::kForeignId:
+      ++counters_.foreign_ids;
       break;
     case Incoming::kNotForUs:
       break;

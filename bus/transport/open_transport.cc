@@ -32,11 +32,11 @@ UdpAddress ParseUdp(std::string_view name) {
 
 }  // namespace
 
-std::unique_ptr<Transport> OpenTransport(std::string_view name) {
-  if (name == "udp") return std::make_unique<UdpTransport>(UdpAddress{});
-  if (name.starts_with(kUdp)) return std::make_unique<UdpTransport>(ParseUdp(name));
+std::unique_ptr<Transport> OpenTransport(std::string_view name, Identifiers identifiers) {
+  if (name == "udp") return std::make_unique<UdpTransport>(UdpAddress{}, identifiers);
+  if (name.starts_with(kUdp)) return std::make_unique<UdpTransport>(ParseUdp(name), identifiers);
   if (name.starts_with(kSocketCan))
-    return std::make_unique<SocketCanTransport>(std::string(name.substr(kSocketCan.size())));
+    return std::make_unique<SocketCanTransport>(std::string(name.substr(kSocketCan.size())), identifiers);
   FailName(name);
 }
 

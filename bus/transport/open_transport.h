@@ -10,7 +10,8 @@ namespace reed::bus {
 
 /// `name`: "socketcan:IFACE", "udp" or "udp:GROUP:PORT". Throws std::runtime_error with one line: what,
 /// where, and the fix or what is allowed.
-std::unique_ptr<Transport> OpenTransport(std::string_view name);
+std::unique_ptr<Transport> OpenTransport(std::string_view name,
+                                         Identifiers identifiers = Identifiers::kOfTheDbc);
 
 /// From here on the calling thread alone receives from it, and waits with one system call where the kernel
 /// can (uring_receiver.h). False: it cannot, or forbids it; two calls then do the same.

@@ -3,20 +3,17 @@
 
 #include <sys/socket.h>
 
-#include <cerrno>
 #include <stdexcept>
 #include <string>
-#include <system_error>
+
+#include "reed/rt/errno_text.h"
 
 namespace reed::bus {
-
-/// What the last system call complained about.
-inline std::string ErrnoText() { return std::generic_category().message(errno); }
 
 template <typename T>
 void SetOption(int fd, int level, int name, const T& value, const char* what) {
   if (setsockopt(fd, level, name, &value, sizeof value) < 0) {
-    throw std::runtime_error(std::string("socket option refused (") + what + "): " + ErrnoText());
+    throw std::runtime_error(std::string("socket option refused (") + what + "): " + rt::ErrnoText());
   }
 }
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "reed/bus/transport/socket_options.h"
+#include "reed/rt/errno_text.h"
 #include "reed_layout.h"
 
 namespace reed::bus {
@@ -25,7 +26,7 @@ ifreq Ask(int fd, const std::string& interface, unsigned long request) {
   ifreq answer{};
   std::memcpy(answer.ifr_name, interface.data(), interface.size());
   if (ioctl(fd, request, &answer) < 0) {
-    Fail(interface, "cannot be queried: " + ErrnoText(), "see ip -details link show " + interface);
+    Fail(interface, "cannot be queried: " + rt::ErrnoText(), "see ip -details link show " + interface);
   }
   return answer;
 }
@@ -36,7 +37,7 @@ FileDescriptor OpenSocket(const std::string& interface) {
   if (fd.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)) {
     Fail(interface, "this kernel has no CAN", "sudo modprobe can_raw, or use the bus vm or udp");
   }
-  if (fd.get() < 0) Fail(interface, "no CAN socket: " + ErrnoText(), "see tools/reed doctor");
+  if (fd.get() < 0) Fail(interface, "no CAN socket: " + rt::ErrnoText(), "see tools/reed doctor");
   return fd;
 }
 
@@ -72,7 +73,7 @@ void SetFilters(int fd) {
 
 }  // namespace
 
-SocketCanTransport::SocketCanTransport(const std::string& interface)
+SocketCanTransport::SocketCanTransport(const std::string& interface, Identifiers identifiers)
     : interface_(interface), socket_(OpenSocket(interface)) {
   const int fd = socket_.get();
   sockaddr_can address{};
@@ -81,10 +82,10 @@ SocketCanTransport::SocketCanTransport(const std::string& interface)
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, 1, "CAN FD frames");
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 0, "own frames off");
   SetOption(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK}, "CAN error frames");
-  SetFilters(fd);
+  if (identifiers == Identifiers::kOfTheDbc) SetFilters(fd);
   SetReceiveQueue(fd);
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) < 0) {
-    Fail(interface, "cannot be used: " + ErrnoText(), "see ip -details link show " + interface);
+    Fail(interface, "cannot be used: " + rt::ErrnoText(), "see ip -details link show " + interface);
   }
   Use(fd, fd);
 }

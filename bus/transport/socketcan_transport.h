@@ -11,7 +11,7 @@ namespace reed::bus {
 
 class SocketCanTransport final : public DatagramTransport {
  public:
-  explicit SocketCanTransport(const std::string& interface);
+  explicit SocketCanTransport(const std::string& interface, Identifiers identifiers = Identifiers::kOfTheDbc);
   std::string kind() const override { return "socketcan"; }
   std::string interface() const override { return interface_; }
 

@@ -13,6 +13,8 @@
 
 #include "reed/bus/transport/msgpack_frame.h"
 #include "reed/bus/transport/socket_options.h"
+#include "reed/rt/errno_text.h"
+#include "reed_layout.h"
 
 namespace reed::bus {
 namespace {
@@ -23,7 +25,7 @@ namespace {
 }
 
 [[noreturn]] void FailNoRoute(const UdpAddress& address) {
-  Fail(address, "no multicast on loopback (" + ErrnoText() + ")",
+  Fail(address, "no multicast on loopback (" + rt::ErrnoText() + ")",
        "sudo ip link set lo up multicast on; sudo ip route add 224.0.0.0/4 dev lo");
 }
 
@@ -43,7 +45,7 @@ sockaddr_in Parse(const UdpAddress& address) {
 
 FileDescriptor OpenSocket(const UdpAddress& address) {
   FileDescriptor fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (fd.get() < 0) Fail(address, "no UDP socket: " + ErrnoText(), "enable IPv4");
+  if (fd.get() < 0) Fail(address, "no UDP socket: " + rt::ErrnoText(), "enable IPv4");
   return fd;
 }
 
@@ -67,10 +69,18 @@ bool DropOwn(int fd, in_port_t own_port) {
   return setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
 }
 
+bool IsOfTheDbc(std::uint32_t id) noexcept {
+  return std::any_of(layout::kFrames.begin(), layout::kFrames.end(),
+                     [id](const FrameLayout& frame) { return frame.id == id; });
+}
+
 }  // namespace
 
-UdpTransport::UdpTransport(const UdpAddress& address)
-    : address_(address), send_socket_(OpenSocket(address)), receive_socket_(OpenSocket(address)) {
+UdpTransport::UdpTransport(const UdpAddress& address, Identifiers identifiers)
+    : address_(address),
+      identifiers_(identifiers),
+      send_socket_(OpenSocket(address)),
+      receive_socket_(OpenSocket(address)) {
   const sockaddr_in group = Parse(address);
   const int out = send_socket_.get();
   SetOption(out, IPPROTO_IP, IP_MULTICAST_IF, OnLoopback(group.sin_addr), "multicast on loopback");
@@ -88,15 +98,17 @@ UdpTransport::UdpTransport(const UdpAddress& address)
   const int in = receive_socket_.get();
   SetOption(in, SOL_SOCKET, SO_REUSEADDR, 1, "shared address");
   SetOption(in, SOL_SOCKET, SO_REUSEPORT, 1, "shared port");
+  // Without this, a group that any socket has joined on any interface is heard: a frame of another machine, too.
+  SetOption(in, IPPROTO_IP, IP_MULTICAST_ALL, 0, "the joined interface only");
   SetReceiveQueue(in);
   if (DropOwn(in, own_port_)) DropsOwn();
   if (bind(in, Generic(group), sizeof group) < 0) {
-    Fail(address, "cannot bind: " + ErrnoText(), "another program owns this port, choose another");
+    Fail(address, "cannot bind: " + rt::ErrnoText(), "another program owns this port, choose another");
   }
   const ip_mreqn membership = OnLoopback(group.sin_addr);
   if (setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) < 0) FailNoRoute(address);
 
-  // A tool that joined by another interface still sends from one of this machine's addresses.
+  // What travels on the loopback may come from any of this machine's addresses.
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) == 0) {
     std::size_t count = 0;
@@ -123,7 +135,10 @@ Incoming UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
   if (!IsFromThisMachine(datagram.source) || datagram.source.sin_port == own_port_)
     return Incoming::kNotForUs;
   if (datagram.truncated) return Incoming::kMalformed;
-  return UnpackFrame(datagram.bytes, out);
+  const Incoming found = UnpackFrame(datagram.bytes, out);
+  const bool foreign =
+      found == Incoming::kFrame && identifiers_ == Identifiers::kOfTheDbc && !IsOfTheDbc(out.id);
+  return foreign ? Incoming::kForeignId : found;
 }
 
 std::size_t UdpTransport::Write(const Frame& frame,

@@ -21,7 +21,7 @@ struct UdpAddress {
 
 class UdpTransport final : public DatagramTransport {
  public:
-  explicit UdpTransport(const UdpAddress& address);
+  explicit UdpTransport(const UdpAddress& address, Identifiers identifiers = Identifiers::kOfTheDbc);
   std::string kind() const override { return "udp"; }
   std::string interface() const override { return address_.group + ":" + std::to_string(address_.port); }
 
@@ -33,6 +33,7 @@ class UdpTransport final : public DatagramTransport {
   static constexpr std::size_t kMaxLocalAddresses = 32;
 
   UdpAddress address_;
+  Identifiers identifiers_;
   FileDescriptor send_socket_;
   FileDescriptor receive_socket_;
   in_port_t own_port_ = 0;                                       // network order

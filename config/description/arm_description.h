@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace reed {
+#include "reed/config/sizes/sizes.h"
 
-inline constexpr int kMaxJoints = 8;
-inline constexpr int kMaxParameters = 12;
+namespace reed {
 
 /// One row of modified (Craig) Denavit-Hartenberg parameters:
 /// T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta_i) Tz(d), alpha = alpha_{i-1}, a = a_{i-1}. All joints are revolute.

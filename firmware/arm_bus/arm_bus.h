@@ -45,10 +45,13 @@ class ArmBus {
   bool Receive(std::int64_t deadline_ns, telemetry::Snapshot& tap) noexcept {
     std::int64_t wait_end_ns = std::min(deadline_ns, tap.time_ns + kOneWait_ns);
     for (int taken = 0; taken < kMostFrames && Missing() > 0;) {
+      const std::uint64_t passed_over = PassedOver();
       const int count = transport_.Receive(received_, Missing(), wait_end_ns);
       const std::int64_t now_ns = rt::MonotonicClock{}.NowNs();  // one batch, one reading
       const std::int32_t at_ns = rt::ShortNs(now_ns - tap.time_ns);
       if (count == 0) {
+        if (now_ns < wait_end_ns && PassedOver() != passed_over)
+          continue;                                 // others' frames: it looked at enough of them
         const bool gave_up = now_ns < wait_end_ns;  // the transport itself: nothing can come any more
         if (wait_end_ns == deadline_ns || MissingJoints() == 0 || gave_up) break;
       }
@@ -86,6 +89,7 @@ class ArmBus {
   /// there by then was not sent.
   static constexpr std::int64_t kOneWait_ns = 100'000'000;
 
+  std::uint64_t PassedOver() const noexcept { return bus::PassedOver(transport_.counters()); }
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
 
@@ -106,7 +110,7 @@ class ArmBus {
         break;
       case bus::MessageKind::kSync:
       case bus::MessageKind::kCommand:
-        measurement_.foreign_controller = true;
+        measurement_.foreign_controller = measurement_.foreign_controller || bus::IsGenuine(decoded);
         break;
       case bus::MessageKind::kUnknown:
         break;
@@ -150,13 +154,13 @@ class ArmBus {
       return;
     }
     const bus::WrenchMessage& wrench = decoded.wrench;
-    const std::int64_t late = static_cast<std::int64_t>(cycle_) - static_cast<std::int64_t>(wrench.cycle);
+    const auto late = static_cast<std::int32_t>(cycle_ - wrench.cycle);  // modulo 2^32
     if (late > 0) ++late_;
     wrench_came_ = wrench_came_ || late == 0;
     if (!waited_for || late < 0 || late >= measurement_.wrench_age) return;
     measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
     measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
-    measurement_.wrench_age = static_cast<int>(late);
+    measurement_.wrench_age = late;
   }
 
   bus::Transport& transport_;

@@ -65,7 +65,7 @@ class Controller {
   mode::Mode mode() const noexcept { return supervisor_.mode(); }
   std::int32_t limits() const noexcept { return verdict_.limits; }  // bit set of those that act
   double time_s() const noexcept {
-    return active() ? T_ * supervisor_.cycles_in_mode() : 0.0;
+    return active() ? T_ * static_cast<double>(supervisor_.cycles_in_mode()) : 0.0;
   }  // active since
   protect::Reason trip() const noexcept { return trip_; }
   TripPlace trip_place() const noexcept { return trip_place_; }

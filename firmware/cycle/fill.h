@@ -94,7 +94,7 @@ inline void FillBus(const bus::TransportCounters& t, const bus::DecodeCounters& 
   out.wrong_sequence = rejected(bus::Reject::kSequence);
   out.wrong_length = rejected(bus::Reject::kLength);
   out.out_of_range = rejected(bus::Reject::kRange);
-  out.unknown_id = rejected(bus::Reject::kUnknownId);
+  out.unknown_id = rejected(bus::Reject::kUnknownId) + static_cast<std::int64_t>(t.foreign_ids);
   out.malformed = static_cast<std::int64_t>(t.malformed);
   out.error_frames = static_cast<std::int64_t>(t.error_frames);
   out.overflowed = static_cast<std::int64_t>(t.overflowed);

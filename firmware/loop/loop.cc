@@ -1,6 +1,7 @@
 #include "reed/firmware/loop/loop.h"
 
 #include "reed/firmware/loop/realtime_loop.h"
+#include "reed/rt/patience.h"
 
 namespace reed {
 namespace {
@@ -10,6 +11,25 @@ namespace {
 constexpr std::int64_t kFirstTurn_ns = 1'000'000'000;
 constexpr std::int64_t kNextTurn_ns = 50'000'000;
 constexpr std::int64_t kFullRing_ns = 200'000;  // lockstep: how often a full ring is looked at again
+
+/// Waits while the ring is full; once the run shall stop, for a disk's patience in all and no longer.
+class RoomInRing {
+ public:
+  void Await(telemetry::SnapshotRing& ring, const std::atomic<bool>& stop) noexcept {
+    const rt::MonotonicClock clock;
+    while (ring.Claim() == nullptr) {
+      const std::int64_t now_ns = clock.NowNs();
+      if (stop.load(std::memory_order_relaxed)) {
+        if (patient_until_ns_ == 0) patient_until_ns_ = now_ns + rt::kDiskPatience_ns;
+        if (now_ns > patient_until_ns_) return;
+      }
+      clock.SleepUntil(now_ns + kFullRing_ns);
+    }
+  }
+
+ private:
+  std::int64_t patient_until_ns_ = 0;
+};
 
 }  // namespace
 
@@ -27,9 +47,10 @@ LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
   CycleState state;
   const std::int64_t start_ns = clock.NowNs();
   Silence silence(start_ns);
+  RoomInRing room;
   bool lost = false;
   do {
-    while (ring.Claim() == nullptr) clock.SleepUntil(clock.NowNs() + kFullRing_ns);
+    room.Await(ring, stop);
     const std::int64_t now_ns = clock.NowNs();
     state.stop_wanted = stop.load(std::memory_order_relaxed);
     const std::int64_t turn_ns = lost ? kNextTurn_ns : kFirstTurn_ns;

@@ -29,7 +29,7 @@ LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::Snap
                    const std::atomic<bool>& stop) noexcept;
 
 /// Clock `lockstep`: the next cycle starts when this one is done. No deadlines, no budgets, nothing missed,
-/// and no snapshot lost: a full ring is waited for. RT: safe.
+/// and no snapshot lost: a full ring is waited for, but not for ever once the run shall stop. RT: safe.
 LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
                        const std::atomic<bool>& stop) noexcept;
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "reed/bus/frame/frame.h"
-#include "reed/firmware/record/record_file.h"
+#include "reed/telemetry/record_file.h"
 
 namespace reed::telemetry {
 

@@ -33,13 +33,13 @@ void AppendPhases(const rt::PhaseHistory& history, std::string& text) {
 }  // namespace
 
 template <typename Message>
-Bytes Encoder::Encode(const Message& message) {
+Bytes MessageEncoder::Encode(const Message& message) {
   const int size = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
   if (size < 0) throw std::length_error(std::string(Message::getTypeName()) + " does not fit one datagram");
   return {buffer_.data(), static_cast<std::size_t>(size)};
 }
 
-Bytes Encoder::Measured(const Snapshot& snapshot, std::int64_t utime) {
+Bytes MessageEncoder::Measured(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Measured& in = snapshot.measured;
   reed::measured_t& out = measured_;
   const std::int32_t dof = std::clamp(snapshot.dof, 0, kMaxJoints);
@@ -57,7 +57,7 @@ Bytes Encoder::Measured(const Snapshot& snapshot, std::int64_t utime) {
   return Encode(out);
 }
 
-Bytes Encoder::Control(const Snapshot& snapshot, std::int64_t utime) {
+Bytes MessageEncoder::Control(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Control& in = snapshot.control;
   reed::control_t& out = control_;
   const std::int32_t dof = std::clamp(snapshot.dof, 0, kMaxJoints);
@@ -90,7 +90,7 @@ Bytes Encoder::Control(const Snapshot& snapshot, std::int64_t utime) {
   return Encode(out);
 }
 
-Bytes Encoder::Adaptation(const Snapshot& snapshot, std::int64_t utime) {
+Bytes MessageEncoder::Adaptation(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Adaptation& in = snapshot.adaptation;
   reed::adaptation_t& out = adaptation_;
   out.utime = utime;
@@ -103,7 +103,7 @@ Bytes Encoder::Adaptation(const Snapshot& snapshot, std::int64_t utime) {
   return Encode(out);
 }
 
-Bytes Encoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
+Bytes MessageEncoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Timing& in = snapshot.timing;
   reed::timing_t& out = timing_;
   out.utime = utime;
@@ -123,7 +123,7 @@ Bytes Encoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   return Encode(out);
 }
 
-Bytes Encoder::Bus(const BusCounters& in, std::int64_t cycle, std::int64_t utime) {
+Bytes MessageEncoder::Bus(const BusCounters& in, std::int64_t cycle, std::int64_t utime) {
   reed::bus_t& out = bus_;
   out.utime = utime;
   out.cycle = cycle;
@@ -144,7 +144,7 @@ Bytes Encoder::Bus(const BusCounters& in, std::int64_t cycle, std::int64_t utime
   return Encode(out);
 }
 
-Bytes Encoder::Event(const Snapshot& snapshot, int index, const char* text, std::int64_t utime) {
+Bytes MessageEncoder::Event(const Snapshot& snapshot, int index, const char* text, std::int64_t utime) {
   const telemetry::Event& in = snapshot.events.at(static_cast<std::size_t>(index));
   reed::event_t& out = event_;
   out.utime = utime;
@@ -159,8 +159,8 @@ Bytes Encoder::Event(const Snapshot& snapshot, int index, const char* text, std:
   return Encode(out);
 }
 
-Bytes Encoder::Histogram(const reed::histogram_t& histogram) { return Encode(histogram); }
+Bytes MessageEncoder::Histogram(const reed::histogram_t& histogram) { return Encode(histogram); }
 
-Bytes Encoder::Run(const reed::run_t& run) { return Encode(run); }
+Bytes MessageEncoder::Run(const reed::run_t& run) { return Encode(run); }
 
 }  // namespace reed::telemetry

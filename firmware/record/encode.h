@@ -12,19 +12,13 @@
 #include <reed/measured_t.hpp>
 #include <reed/run_t.hpp>
 #include <reed/timing_t.hpp>
-#include <span>
 
 #include "reed/firmware/snapshot/snapshot.h"
+#include "reed/telemetry/message.h"
 
 namespace reed::telemetry {
 
-/// One datagram on an Ethernet with room for LCM's header; every message stays below it.
-inline constexpr std::size_t kMaxMessageBytes = 1400;
-
-/// Encoded bytes, valid until the encoder's next call.
-using Bytes = std::span<const std::uint8_t>;
-
-class Encoder {
+class MessageEncoder {
  public:
   Bytes Measured(const Snapshot& snapshot, std::int64_t utime);
   Bytes Control(const Snapshot& snapshot, std::int64_t utime);

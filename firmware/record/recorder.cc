@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "reed/rt/clock.h"
+#include "reed/rt/patience.h"
 
 namespace reed::telemetry {
 namespace {
@@ -18,18 +19,13 @@ constexpr std::int64_t kFlushNs = 100'000'000;
 /// More than a watcher can follow; bursts because the thread wakes up every few ms.
 constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 50;
 
-std::string Lost(const SinkReport& sink, const char* what) {
-  return sink.problem + " (" + std::to_string(sink.lost) + " " + what + " lost, " +
-         std::to_string(sink.written) + " written)";
-}
-
 }  // namespace
 
 std::vector<std::string> RecorderReport::Problems() const {
   std::vector<std::string> lines;
-  if (!log.problem.empty()) lines.push_back(Lost(log, "messages"));
-  if (!candump.problem.empty()) lines.push_back(Lost(candump, "frames"));
-  if (!lcm.problem.empty()) lines.push_back(Lost(lcm, "messages"));
+  if (!log.problem.empty()) lines.push_back(log.Loss("messages"));
+  if (!candump.problem.empty()) lines.push_back(candump.Loss("frames"));
+  if (!lcm.problem.empty()) lines.push_back(lcm.Loss("messages"));
   if (frames_omitted > 0) {
     lines.push_back("CAN log: " + std::to_string(frames_omitted) + " frames omitted, more than " +
                     std::to_string(kMaxFrames) + " in one cycle");
@@ -58,6 +54,7 @@ void Recorder::RecordRun(reed::run_t run) {
 
 void Recorder::Start() {
   stop_.store(false, std::memory_order_relaxed);
+  done_.store(false, std::memory_order_relaxed);
   thread_ = std::thread([this] { Run(); });
   pthread_setname_np(thread_.native_handle(), "reed-telemetry");
 }
@@ -65,6 +62,7 @@ void Recorder::Start() {
 void Recorder::Stop() {
   if (!thread_.joinable()) return;
   stop_.store(true, std::memory_order_release);
+  if (!rt::AwaitDone(done_, progress_)) rt::AbandonProcess(rt::TakesNothing(*writing_.load()));
   thread_.join();
 }
 
@@ -74,6 +72,7 @@ RecorderReport Recorder::Close() {
   report_.log = log_.report();
   report_.candump = candump_.report();
   report_.lcm = publisher_.report();
+  if (!publisher_.enabled()) report_.lcm.problem.clear();  // was said at start: publish_problem()
   return report_;
 }
 
@@ -97,6 +96,7 @@ void Recorder::Run() {
   }
   if (report_.snapshots % kHistogramPeriodCycles != 0) RecordHistograms();
   Flush();
+  done_.store(true, std::memory_order_release);
 }
 
 bool Recorder::DrainBatch() {
@@ -106,6 +106,7 @@ bool Recorder::DrainBatch() {
     if (snapshot == nullptr) return true;
     Record(*snapshot);
     ring_.PopFront();
+    progress_.fetch_add(1, std::memory_order_relaxed);
   }
   return false;
 }
@@ -126,6 +127,7 @@ void Recorder::Record(const Snapshot& snapshot) {
   }
   if (snapshot.cycle >= next_bus_cycle_) RecordBus(snapshot.bus, snapshot.cycle, utime);
 
+  writing_.store(&candump_.report().name, std::memory_order_relaxed);
   for (int i = 0; i < snapshot.num_frames; ++i) {
     const RecordedFrame& recorded = snapshot.frames[static_cast<std::size_t>(i)];
     candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
@@ -152,12 +154,15 @@ void Recorder::RecordBus(const BusCounters& bus, std::int64_t cycle, std::int64_
 }
 
 void Recorder::Emit(const char* channel, Bytes message, std::int64_t utime, bool publish) {
+  writing_.store(&log_.report().name, std::memory_order_relaxed);
   log_.Write(channel, message, utime);
   if (publish) publisher_.Publish(channel, message);
 }
 
 void Recorder::Flush() {
+  writing_.store(&log_.report().name, std::memory_order_relaxed);
   log_.Flush();
+  writing_.store(&candump_.report().name, std::memory_order_relaxed);
   candump_.Flush();
 }
 

@@ -14,12 +14,12 @@
 
 #include "reed/firmware/record/candump_log.h"
 #include "reed/firmware/record/encode.h"
-#include "reed/firmware/record/event_log.h"
-#include "reed/firmware/record/lcm_publisher.h"
-#include "reed/firmware/record/rate_limit.h"
 #include "reed/firmware/record/time_base.h"
 #include "reed/firmware/record/timing_histograms.h"
 #include "reed/firmware/snapshot/snapshot_ring.h"
+#include "reed/telemetry/event_log.h"
+#include "reed/telemetry/lcm_publisher.h"
+#include "reed/telemetry/rate_limit.h"
 
 namespace reed::telemetry {
 
@@ -66,7 +66,8 @@ class Recorder {
 
   /// Starts the thread. Before the real-time scope, whose priority and core it would inherit.
   void Start();
-  /// Takes out what is left in the ring and ends the thread. Nobody may push meanwhile.
+  /// Takes out what is left in the ring and ends the thread. Nobody may push meanwhile. A file that takes nothing for
+  /// rt::kDiskPatience_ns ends the process, which cannot end the thread.
   void Stop();
   /// Closes the files' books; after Stop(). The files themselves are closed by the destructor.
   RecorderReport Close();
@@ -86,7 +87,7 @@ class Recorder {
   EventLog log_;
   CandumpLog candump_;
   LcmPublisher publisher_;
-  Encoder encoder_;
+  MessageEncoder encoder_;
   RateLimit cycle_limit_, event_limit_;
   RecorderReport report_;
   TimingHistograms histograms_;
@@ -96,7 +97,9 @@ class Recorder {
   std::int64_t last_utime_ = 0;
   std::int64_t next_bus_cycle_ = 0;
   std::int64_t now_ns_ = 0;  // CLOCK_MONOTONIC at the start of the batch
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, done_{false};
+  std::atomic<std::int64_t> progress_{0};             // snapshots that are through
+  std::atomic<const std::string*> writing_{nullptr};  // the file that the thread is, or was last, at
   std::thread thread_;
 };
 

@@ -10,12 +10,11 @@
 #include <type_traits>
 
 #include "reed/bus/frame/frame.h"
+#include "reed/config/sizes/sizes.h"
 #include "reed/rt/phase_budget.h"
 
 namespace reed::telemetry {
 
-inline constexpr int kMaxJoints = 8;
-inline constexpr int kMaxParameters = 12;
 inline constexpr int kMaxEvents = 4;  // of one cycle
 inline constexpr int kMaxFrames =
     24;  // of one cycle: SYNC, 8 states, wrench, command, and a second set after a stall

@@ -1,20 +1,14 @@
 #include "reed/firmware/startup/checks.h"
 
 #include <algorithm>
-#include <array>
-#include <csignal>
 
-#include "reed/bus/codec/messages.h"
 #include "reed/bus/codec/wire_time.h"
+#include "reed/bus/listen/hears.h"
 #include "reed/config/schema/bound.h"
 #include "reed/config/schema/config_error.h"
-#include "reed/rt/clock.h"
 
 namespace reed {
 namespace {
-
-std::atomic<bool> stop_wanted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
 
 void RefuseBudgetBelowWire(const char* key, double budget_us, double wire_us, const char* frames) {
   if (budget_us + 0.5 >= wire_us) return;
@@ -68,31 +62,12 @@ void RefuseLockstepOnRealDrives(const bus::Transport& transport) {
 }
 
 void RefuseSecondController(bus::Transport& transport) {
-  constexpr std::int64_t kListen_ns = 60'000'000;  // three periods of the slowest rate, 50 Hz
-  const rt::MonotonicClock clock;
-  const std::int64_t end_ns = clock.NowNs() + kListen_ns;
-  bus::Decoder decoder;
-  std::array<bus::Frame, 32> frames{};
-  while (clock.NowNs() < end_ns) {
-    const int count = transport.Receive(frames, 1, end_ns);
-    for (int i = 0; i < count; ++i) {
-      const bus::MessageKind kind = decoder.Decode(frames[static_cast<std::size_t>(i)]).kind;
-      if (kind == bus::MessageKind::kSync || kind == bus::MessageKind::kCommand)
-        throw BusError("another controller already sends on " + transport.kind() + ":" +
-                       transport.interface() + "; stop it, or choose another bus with --bus");
-    }
-  }
-}
-
-const std::atomic<bool>& StopFlag() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  struct sigaction hangup {};
-  sigaction(SIGHUP, nullptr, &hangup);  // a terminal that is closed stops the arm in order, but for nohup
-  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
-  return stop_wanted;
+  const auto of_a_controller = [](bus::MessageKind kind) {
+    return kind == bus::MessageKind::kSync || kind == bus::MessageKind::kCommand;
+  };
+  if (bus::Hears(transport, of_a_controller))
+    throw BusError("another controller already sends on " + transport.kind() + ":" + transport.interface() +
+                   "; stop it, or choose another bus with --bus");
 }
 
 }  // namespace reed

@@ -1,11 +1,11 @@
 // What is checked on the ground, before anything moves. RT: set-up only.
 #pragma once
 
-#include <atomic>
 #include <stdexcept>
 
 #include "reed/bus/transport/transport.h"
 #include "reed/config/description/scenario.h"
+#include "reed/rt/program.h"
 
 namespace reed {
 
@@ -25,12 +25,9 @@ void RefuseLockstepOnRealDrives(const bus::Transport& transport);
 void RefuseSecondController(bus::Transport& transport);
 
 /// The bus is there but not usable: exit status 3.
-class BusError : public std::runtime_error {
+class BusError : public rt::Failure {
  public:
-  using std::runtime_error::runtime_error;
+  explicit BusError(const std::string& line) : rt::Failure(line, rt::kDied) {}
 };
-
-/// SIGINT and SIGTERM set the flag instead of ending the process.
-const std::atomic<bool>& StopFlag();
 
 }  // namespace reed

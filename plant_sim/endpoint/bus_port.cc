@@ -3,9 +3,9 @@
 namespace reed::plant {
 
 std::span<const Incoming> BusPort::Receive(std::int64_t deadline_ns) noexcept {
-  const int received = transport_.Receive(frames_, 1, deadline_ns);
+  received_ = transport_.Receive(frames_, 1, deadline_ns);
   std::size_t used = 0;
-  for (int i = 0; i < received; ++i) {
+  for (int i = 0; i < received_; ++i) {
     if (const auto in = Read(frames_[static_cast<std::size_t>(i)])) incoming_[used++] = *in;
   }
   return std::span(incoming_).first(used);
@@ -21,14 +21,15 @@ std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
     return in;
   }
   if (decoded.reject != bus::Reject::kNone) ++rejected_;
-  if (decoded.kind == bus::MessageKind::kJointState || decoded.kind == bus::MessageKind::kWrench)
-    another_arm_ = true;
+  const bool of_an_arm =
+      decoded.kind == bus::MessageKind::kJointState || decoded.kind == bus::MessageKind::kWrench;
+  if (of_an_arm && bus::IsGenuine(decoded)) another_arm_ = true;
   return std::nullopt;
 }
 
 /// A controller that was started anew begins its counters anew, so its first frames look repeated or out of
 /// sequence to a receiver that followed its predecessor. A SYNC moves nothing by itself; it is therefore read
-/// afresh, and its cycle number tells a restart (not after the last one) from a gap (after it). The same
+/// afresh, and its cycle number tells a restart (not soon after the last one) from a gap (soon after it). The same
 /// frame twice is neither, except that the first one of a run may be the first of a second run: answering t =
 /// 0 once more harms nobody.
 std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept {
@@ -43,17 +44,21 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
   Incoming in;
   in.kind = Incoming::Kind::kSync;
   in.sync = own.sync;
-  in.new_controller = !last_cycle_ || own.sync.cycle <= *last_cycle_;
+  const std::uint32_t ahead =
+      own.sync.cycle - last_cycle_.value_or(own.sync.cycle);  // modulo 2^32, as the number is
+  in.new_controller = ahead == 0 || ahead > kLongestGap;
   if (in.new_controller) {
     decoder_ = fresh;
     first_cycle_ = own.sync.cycle;
   }
+  count_ = in.new_controller ? own.sync.cycle : count_ + ahead;
+  in.count = count_;
   last_cycle_ = own.sync.cycle;
   return in;
 }
 
 void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept {
-  std::array<bus::Frame, bus::kMaxJoints + 1> batch;
+  std::array<bus::Frame, kMaxJoints + 1> batch;
   std::size_t size = 0;
   for (int i = 0; i < measurement.dof; ++i) {
     bus::JointStateMessage joint = measurement.joints[static_cast<std::size_t>(i)];

@@ -15,7 +15,8 @@ namespace reed::plant {
 /// One thing that a controller wants.
 struct Incoming {
   enum class Kind : std::uint8_t { kSync, kCommand } kind = Kind::kSync;
-  bool new_controller = false;  // kSync: cycle numbers repeat or go backwards, or it is the first ever
+  bool new_controller = false;  // kSync: cycle numbers repeat, go backwards or leap, or it is the first ever
+  std::int64_t count = 0;  // kSync: the cycle's number, which goes on where that of the frame starts over
   bus::SyncMessage sync;
   bus::CommandMessage command;
 };
@@ -33,6 +34,8 @@ class BusPort {
   /// did not pass since the last answer as the controller's did.
   void Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept;
 
+  /// Frames that the last Receive took off the bus, of use or not.
+  int received() const noexcept { return received_; }
   bool alive() const noexcept { return transport_.alive(); }
   std::uint64_t rejected() const noexcept { return rejected_; }
   /// Somebody else has answered as joint or wrist.
@@ -40,6 +43,8 @@ class BusPort {
 
  private:
   static constexpr std::size_t kBatch = 64;
+  /// So many SYNCs may be lost on the way, 1000 s at 1 kHz; a number further ahead is another controller's.
+  static constexpr std::uint32_t kLongestGap = 1'000'000;
 
   std::optional<Incoming> Read(const bus::Frame& frame) noexcept;
   std::optional<Incoming> ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept;
@@ -50,6 +55,8 @@ class BusPort {
   std::array<bus::Frame, kBatch> frames_;
   std::array<Incoming, kBatch> incoming_;
   std::optional<std::uint32_t> first_cycle_, last_cycle_;  // of the present controller
+  int received_ = 0;
+  std::int64_t count_ = 0;
   std::uint64_t rejected_ = 0;
   bool another_arm_ = false;
 };

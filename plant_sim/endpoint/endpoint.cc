@@ -38,7 +38,7 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
              " (bus/reed.dbc); build both programs from the same source");
     return false;
   }
-  journal_.Stamp(sync.sync.cycle, utime);
+  journal_.Stamp(sync.count, utime);
   if (sync.new_controller) {
     const bool first = syncs_ == 0;
     robot_.Reset();

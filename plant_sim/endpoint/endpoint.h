@@ -48,6 +48,8 @@ class Endpoint {
 
   double period_s_;
   double timeout_periods_;
+  /// The last Poll took frames off the bus; when none of them was of use, they were somebody else's.
+  bool heard_others() const noexcept { return port_.received() > 0; }
   Robot& mutable_robot() noexcept { return robot_; }
   Journal& journal() noexcept { return journal_; }
 

@@ -28,7 +28,7 @@ void LockstepEndpoint::Handle(std::span<const Incoming> incoming) {
 
 void LockstepEndpoint::OnSync(const Incoming& sync) {
   const std::uint32_t cycle = sync.sync.cycle;
-  if (!Accept(sync, std::llround(cycle * 1e6 / rate_hz_))) return;
+  if (!Accept(sync, std::llround(static_cast<double>(sync.count) * 1e6 / rate_hz_))) return;
   if (sync.new_controller) {
     waiting_.reset();
   } else {

@@ -22,6 +22,7 @@ WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, 
 void WallEndpoint::Handle(std::span<const Incoming> incoming) {
   const std::int64_t now_ns = clock_.monotonic_ns();
   const std::int64_t arm_ns = ArmTime(now_ns);
+  if (incoming.empty() && heard_others() && arm_ns - integrated_ns_ < kIdle_ns) return;
   if (syncs() > 0) CatchUp(arm_ns);
   for (const Incoming& in : incoming) {
     if (outcome() != Outcome::kRunning) return;
@@ -66,7 +67,7 @@ std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
 
 /// A command is an answer to a SYNC of the last few periods; an older one is a stray of another controller.
 void WallEndpoint::OnCommand(const bus::CommandMessage& command) {
-  const bool recent = syncs() > 0 && command.cycle <= cycle_ && cycle_ - command.cycle < timeout_periods_;
+  const bool recent = syncs() > 0 && cycle_ - command.cycle < timeout_periods_;  // modulo 2^32
   if (!recent || !mutable_robot().Command(command)) CountRefusedCommand();
 }
 

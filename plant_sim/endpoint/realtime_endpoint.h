@@ -29,6 +29,8 @@ class WallEndpoint final : public Endpoint {
  private:
   /// A machine that is this far behind gives the time up (and says so) instead of chasing it for ever.
   static constexpr std::int64_t kMaxCatchUp_ns = 250'000'000;
+  /// Frames of no use are no reason to integrate before so much has passed.
+  static constexpr std::int64_t kIdle_ns = 50'000'000;
   /// Without a SYNC for so long there is no run of which a stall could be left out.
   static constexpr std::int64_t kControllerGone_ns = 1'000'000'000;
   /// A stall this long is worth a line; shorter ones are counted.

@@ -21,7 +21,7 @@ namespace reed::plant {
 /// What the sensors say at one instant.
 struct Measurement {
   int dof = 0;
-  std::array<bus::JointStateMessage, bus::kMaxJoints> joints{};
+  std::array<bus::JointStateMessage, kMaxJoints> joints{};
   WrenchReading wrench;
   bool wrench_lost = false;
 };

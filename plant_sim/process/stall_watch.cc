@@ -4,8 +4,9 @@
 #include <future>
 #include <utility>
 
-#include "reed/plant/process/thread_rights.h"
+#include "reed/rt/errno_text.h"
 #include "reed/rt/monotonic.h"
+#include "reed/rt/rights.h"
 
 namespace reed::plant {
 namespace {
@@ -18,9 +19,9 @@ std::int64_t TimerResolution_ns() {
 
 /// Core and priority for this thread; why they are refused, or "".
 std::string Ask(int core, int priority) {
-  if (PinTo(core) && RaiseTo(priority)) return "";
+  if (rt::PinTo(core) && rt::RaiseTo(priority)) return "";
   return "stalls of the machine hurt the arm: SCHED_FIFO " + std::to_string(priority) + " on core " +
-         std::to_string(core) + " not granted to the thread that would tell them (" + ErrnoText() +
+         std::to_string(core) + " not granted to the thread that would tell them (" + rt::ErrnoText() +
          "); fix: run as root, or rtprio 99 in /etc/security/limits.conf";
 }
 

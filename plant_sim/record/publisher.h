@@ -4,14 +4,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <thread>
 
 #include "reed/plant/record/encode.h"
-#include "reed/plant/record/lcm_sinks.h"
-#include "reed/plant/record/rate_limit.h"
-#include "reed/plant/record/record_queue.h"
+#include "reed/rt/spsc_ring.h"
+#include "reed/telemetry/event_log.h"
+#include "reed/telemetry/lcm_publisher.h"
+#include "reed/telemetry/rate_limit.h"
 
 namespace reed::plant {
 
@@ -22,6 +22,8 @@ struct PublisherConfig {
   bool network = true;
   bool console = true;  // events as lines on standard output
   WhenFull when_full = WhenFull::kDrop;
+  const std::atomic<bool>* stop =
+      nullptr;  // kWait: once set, a log that takes nothing is waited for no longer
 };
 
 /// Put is called by one thread. The constructor throws std::runtime_error when the log cannot be created; a
@@ -37,27 +39,34 @@ class Publisher final : public Recorder {
   void Put(const Record& record) noexcept override;
 
   /// Everything put so far reaches log and network, the log is on its file, the thread has ended. False when
-  /// the log is incomplete. Called by the destructor if not before.
+  /// the log is incomplete. Called by the destructor if not before. A log that takes nothing for
+  /// rt::kDiskPatience_ns ends the process, which cannot end the thread.
   bool Finish();
 
   std::int64_t dropped() const noexcept { return dropped_; }
 
  private:
-  static constexpr std::size_t kCapacity = 4096;       // four seconds of 1 kHz
-  static constexpr double kNetworkPerSecond = 1000.0;  // per channel: what a listener is spared in lockstep
+  static constexpr std::size_t kCapacity = 4096;  // four seconds of 1 kHz
+  /// Per channel: what a listener is spared in lockstep.
+  static constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 100;
 
+  /// After the stop that the run shall have, a disk is waited for so long in all.
+  bool OutOfPatience() noexcept;
   void Run();
+  bool DrainBatch();  // true: the queue is empty
   void Publish(const Record& record);
 
   PublisherConfig config_;
-  RecordQueue queue_{kCapacity};
+  rt::SpscRing<Record> queue_{kCapacity};
   MessageEncoder encoder_;
-  std::unique_ptr<EventLogFile> log_;
-  std::unique_ptr<LcmNetwork> network_;
-  RateLimit plant_limit_{kNetworkPerSecond}, event_limit_{kNetworkPerSecond};
-  bool log_complete_ = true;
+  telemetry::EventLog log_;
+  telemetry::LcmPublisher network_;
+  telemetry::RateLimit plant_limit_{kPublishPerSecond, kPublishBurst},
+      event_limit_{kPublishPerSecond, kPublishBurst};
   std::int64_t dropped_ = 0;
-  std::atomic<bool> finish_{false};
+  std::int64_t patient_until_ns_ = 0;
+  std::atomic<bool> finish_{false}, done_{false};
+  std::atomic<std::int64_t> progress_{0};  // records that are through
   std::thread thread_;
 };
 

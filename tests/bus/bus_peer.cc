@@ -126,7 +126,7 @@ int main(int argc, char** argv) try {
     RunCodec();
     return 0;
   }
-  const auto bus = OpenTransport(argc > 2 ? argv[2] : "");
+  const auto bus = OpenTransport(argc > 2 ? argv[2] : "", Identifiers::kAny);
   if (verb == "listen") return Listen(*bus, std::stoi(argv[3]));
   for (std::string line; std::getline(std::cin, line);) {
     const Frame frame = ParseCandump(line);

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -115,6 +116,69 @@ TEST_F(UdpBus, NeighboursOfEqualSizeStayDatagramsOfTheirOwnInOrder) {  // UDP_SE
     EXPECT_EQ(got[i].size, sent[i].size);
   }
   EXPECT_EQ(a_.counters().frames_tx, sent.size());
+}
+
+TEST_F(UdpBus, AnIdentifierThatIsNotInTheDbcIsCountedAndHandedToNobody) {
+  Frame foreign = NumberedFrame(1);
+  foreign.id = 0x7AB;
+  ASSERT_EQ(a_.Send(std::array{foreign, NumberedFrame(2)}), 2);
+  const std::vector<Frame> got = Take(b_, 1);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(NumberOf(got[0]), 2);
+  EXPECT_EQ(b_.counters().foreign_ids, 1U);
+  EXPECT_EQ(b_.counters().frames_rx, 1U);
+}
+
+TEST_F(UdpBus, AFloodOfForeignFramesEndsAReceiveLongBeforeItsDeadline) {
+  Frame foreign = NumberedFrame(1);
+  foreign.id = 0x7AB;
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(a_.Send(std::array{foreign}), 1);
+  std::vector<Frame> out(64);
+  const std::int64_t start_ns = Now_ns();
+  EXPECT_EQ(b_.Receive(out, 1, start_ns + 10 * kSecond_ns), 0);
+  EXPECT_LT(Now_ns() - start_ns, 5 * kSecond_ns);
+  EXPECT_GE(b_.counters().foreign_ids, 64U);
+}
+
+/// An interface that is up and has multicast, other than the loopback; 0: there is none.
+int OtherInterface() {
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return 0;
+  int found = 0;
+  for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
+    const bool can = (i->ifa_flags & IFF_UP) != 0 && (i->ifa_flags & IFF_MULTICAST) != 0 &&
+                     (i->ifa_flags & IFF_LOOPBACK) == 0;
+    if (can && i->ifa_addr != nullptr && i->ifa_addr->sa_family == AF_INET)
+      found = static_cast<int>(if_nametoindex(i->ifa_name));
+  }
+  freeifaddrs(list);
+  return found;
+}
+
+TEST_F(UdpBus, WhatComesByAnotherInterfaceIsNotHeard) {
+  const int other = OtherInterface();
+  if (other == 0) GTEST_SKIP() << "no interface with multicast beside the loopback";
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  ip_mreqn join{};
+  inet_pton(AF_INET, address_.group.c_str(), &join.imr_multiaddr);
+  join.imr_ifindex = other;
+  const int zero = 0;
+  ASSERT_EQ(setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &join, sizeof join), 0);
+  ASSERT_EQ(setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &join, sizeof join), 0);
+  ASSERT_EQ(setsockopt(fd, IPPROTO_IP, IP_MULTICAST_TTL, &zero, sizeof zero), 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(address_.port);
+  to.sin_addr = join.imr_multiaddr;
+  std::array<std::uint8_t, kMaxPackedFrame> bytes{};
+  const std::size_t size = PackFrame(NumberedFrame(1), 0.0, bytes);
+  ASSERT_EQ(sendto(fd, bytes.data(), size, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to),
+            static_cast<ssize_t>(size));
+  close(fd);
+  ASSERT_EQ(a_.Send(std::array{NumberedFrame(2)}), 1);
+  const std::vector<Frame> got = Take(b_, 1);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(NumberOf(got[0]), 2);
 }
 
 TEST_F(UdpBus, OwnFramesAreNotReceived) {

@@ -110,6 +110,40 @@ TEST_F(ArmBusTest, AForeignSyncOrCommandIsNoticedInItsCycle) {
   EXPECT_TRUE(seen().foreign_controller);
 }
 
+TEST_F(ArmBusTest, ADamagedSyncOrCommandIsCountedAndIsNobodysController) {
+  bus::Encoder other;
+  GoodCycle(0);
+  Sync(1);
+  bus::Frame sync = other.Sync({77}), command = other.Command({77, bus::DriveRequest::kEnable, {}});
+  bus::Frame cut = sync;
+  sync.data[4] ^= 1U;
+  command.data[4] ^= 1U;
+  cut.size = 4;
+  Put(sync);
+  Put(command);
+  Put(cut);
+  PutAll(1);
+  EXPECT_TRUE(Receive());
+  EXPECT_FALSE(seen().foreign_controller);
+  EXPECT_EQ(Rejected(bus::Reject::kCrc), 2U);
+  EXPECT_EQ(Rejected(bus::Reject::kLength), 1U);
+  EXPECT_EQ(seen().OldestAge(), 0) << "the arm's own frames of the same cycle count";
+}
+
+TEST_F(ArmBusTest, ARepeatedSyncIsSomebodysAllTheSame) {
+  bus::Encoder other;
+  const bus::Frame sync = other.Sync({77});
+  Sync(0);
+  Put(sync);
+  PutAll(0);
+  Receive();
+  Sync(1);
+  Put(sync);
+  PutAll(1);
+  Receive();
+  EXPECT_TRUE(seen().foreign_controller);
+}
+
 TEST_F(ArmBusTest, ABabblingBusCannotHoldTheLoop) {
   Sync(0);
   bus::Frame babble = Joint(0, 0, 0.0);

@@ -23,8 +23,8 @@ TEST_F(ArmBusTest, AFullAnswerIsFreshAndIsWhatTheJointsSaid) {
   }
   EXPECT_EQ(seen().wrench_age, 0);
   EXPECT_NEAR(seen().force.z(), 5.0, 1e-6);
-  EXPECT_TRUE(seen().AllDrives(bus::DriveState::kReady));
-  EXPECT_FALSE(seen().AllDrives(bus::DriveState::kEnabled));
+  EXPECT_TRUE(seen().AllDrives(DriveState::kReady));
+  EXPECT_FALSE(seen().AllDrives(DriveState::kEnabled));
 }
 
 TEST_F(ArmBusTest, TheOrderWithinABatchDoesNotMatter) {
@@ -150,7 +150,7 @@ TEST_F(ArmBusTest, AClockThatStoodStillIsBelievedOfASimulatedArmOnly) {
       state.clock_stood = stood;
       Put(peer.JointState(0, state));
       bus.Receive(0, tap_);
-      EXPECT_EQ(bus.measurement().clock_stood, stood && believed) << kind << " " << interface;
+      EXPECT_EQ(bus.clock_stood(), stood && believed) << kind << " " << interface;
     }
   }
 }
@@ -215,7 +215,7 @@ TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
 TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
   GoodCycle(0);
   Eigen::Vector3d tau(1.0, -2.0, 3.0);
-  bus_.SendCommand(bus::DriveRequest::kEnable, tau, 0, tap_);
+  bus_.SendCommand({DriveRequest::kEnable, tau}, 0, tap_);
   ASSERT_EQ(tap_.num_frames, kN + 3);
   EXPECT_EQ(tap_.frames[0].direction, telemetry::Direction::kSent);
   EXPECT_EQ(tap_.frames[0].frame.id, bus::layout::kSync.id);
@@ -230,6 +230,22 @@ TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
     EXPECT_EQ(command.command.torque_Nm[i], tau[static_cast<Eigen::Index>(i)]);
   for (std::size_t i = kN; i < command.command.torque_Nm.size(); ++i)
     EXPECT_EQ(command.command.torque_Nm[i], 0.0) << "a joint that is not there gets no torque";
+}
+
+TEST_F(ArmBusTest, AWrenchOfTheCycleBeforeTheNumberWrapsIsOneCycleLate) {
+  constexpr std::uint32_t kLast = 0xFFFFFFFF;
+  GoodCycle(kLast - 1);
+  Sync(kLast);
+  Put(Wrench(kLast - 1, 5.0));
+  PutAll(kLast);
+  Receive();
+  Sync(0);
+  Put(Wrench(kLast, 7.0));
+  PutAll(0);
+  EXPECT_TRUE(Receive());
+  EXPECT_EQ(seen().wrench_age, 1);
+  EXPECT_EQ(seen().force[2], 7.0);
+  EXPECT_EQ(seen().OldestAge(), 0);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Figures {
   void Add(const SilRig& rig) {
     const telemetry::Snapshot& now = rig.snapshot();
     double DD = 0.0, De = 0.0;
-    double e[telemetry::kMaxJoints];
+    double e[kMaxJoints];
     for (std::size_t i = 0; i < static_cast<std::size_t>(now.dof); ++i) {
       e[i] = now.control.theta_plan[i] - now.measured.position[i];
       DD += now.control.D[i] * now.control.D[i];

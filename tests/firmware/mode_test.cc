@@ -7,8 +7,6 @@
 namespace reed::mode {
 namespace {
 
-using bus::DriveRequest;
-
 constexpr Mode kO = Mode::kOff, kR = Mode::kReady, kA = Mode::kActive, kF = Mode::kFault;
 
 // Rows: off, ready, active, fault. Columns: none, enable, start, stop, trip, reset, braked.
@@ -52,12 +50,14 @@ class Walk {
     for (int i = 0; i < count; ++i) Cycle();
   }
 
-  Observation seen{.all_fresh = true, .settled = true};
+  Observation seen{.all_fresh = true, .tared = true};
   Supervisor supervisor;
 
  private:
   DriveRequest asked_ = DriveRequest::kOff;
 };
+
+static_assert(sizeof(Supervisor(true).cycles_in_mode()) == 8, "2^31 cycles are 25 days at 1 kHz");
 
 TEST(Supervisor, AHealthyArmWithTheWishGoesOffReadyActive) {
   Walk walk(true);
@@ -84,7 +84,7 @@ TEST(Supervisor, WithoutTheWishAStreamOfMeasurementsNeverAsksForEnable) {
 
 TEST(Supervisor, DrivesThatEnableThemselvesDoNotMakeTheArmActive) {
   Supervisor supervisor(false);
-  const Observation seen{.all_fresh = true, .drives_enabled = true, .settled = true};
+  const Observation seen{.all_fresh = true, .drives_enabled = true, .tared = true};
   for (int i = 0; i < 1000; ++i) {
     supervisor.Step(seen);
     ASSERT_NE(supervisor.mode(), kA);

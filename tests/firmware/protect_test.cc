@@ -44,8 +44,8 @@ struct Gate {
     for (int i = 0; i < 20; ++i) Apply(tau_1, tau_2);
   }
   bool Acts(Reason reason) const { return (verdict.limits & LimitBit(reason)) != 0; }
-  Verdict Judge(double q_1, double q_2, double qd_1 = 0.0, double qd_2 = 0.0, double force = 0.0,
-                int age = 0) const {
+  Verdict CheckState(double q_1, double q_2, double qd_1 = 0.0, double qd_2 = 0.0, double force = 0.0,
+                     int age = 0) const {
     return limits.CheckState(Vec2(q_1, q_2), Vec2(qd_1, qd_2), force, age, 1);
   }
 };

@@ -1,10 +1,13 @@
 """reed_firmware and reed_plant_sim as processes: bad input and bad surroundings give one clear line and the right status."""
 
+import contextlib
 import os
 import pathlib
+import select
 import shutil
 import signal
 import subprocess
+import time
 
 import pytest
 
@@ -207,3 +210,79 @@ def test_a_whole_run_by_hand_records_and_ends_by_itself(plant, tmp_path):
     lines = candump.read_text().splitlines()
     assert len(lines) >= 8 * 300 and " 080##" in lines[0]
     assert log.stat().st_size > 300 * 500
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_a_disk_that_takes_nothing_cannot_keep_a_stopped_lockstep_run(program, plant, tmp_path):
+    """A pipe whose reader has stopped reading stands for the disk: the program obeys SIGINT, names the file and ends with 3."""
+    stuck = tmp_path / "stuck"
+    os.mkfifo(stuck)
+    reader = os.open(stuck, os.O_RDONLY | os.O_NONBLOCK)
+    own = {name: ["--log", stuck] if name == program else ["--log", tmp_path / name] for name in PROGRAMS}
+    arm = start(PLANT, "--config", "press_known", "--bus", bus(43312), "--clock", "lockstep", "--no-lcm", *own["reed_plant_sim"])
+    assert "waiting for SYNC" in arm.stdout.readline()
+    firmware = start(FIRMWARE, "--config", "press_known", "--bus", bus(43312), "--clock", "lockstep", "--no-lcm", *own["reed_firmware"])
+    time.sleep(3.0)  # the pipe is full, then the queue, then the program waits
+    stopped = {"reed_firmware": firmware, "reed_plant_sim": arm}[program]
+    status, _, error = end(stopped)
+    for other in (firmware, arm):
+        other.kill()
+        other.wait()
+    os.close(reader)
+    assert status == 3, error
+    assert f"{program}: {stuck}: takes nothing any more" in error, error
+
+
+@pytest.mark.parametrize("limit", ["file size", "reader"])
+def test_a_log_that_cannot_go_on_costs_its_records_and_no_run(limit, plant, tmp_path):
+    """A file that may not grow (SIGXFSZ) and a reader that leaves (SIGPIPE): the loop goes on to its end, the loss is counted."""
+    plant(43313, "--clock", "lockstep")
+    candump = tmp_path / "bus.candump"
+    command = [FIRMWARE, "--config", "press_known", "--bus", bus(43313), "--clock", "lockstep", "--enable", "--no-lcm",
+               "--set", "scenario.duration_s=0.5", "--candump", candump]
+    if limit == "file size":
+        firmware = start("bash", "-c", 'ulimit -f 100; exec "$@"', "_", *command)
+    else:
+        os.mkfifo(candump)
+        reader = os.open(candump, os.O_RDONLY | os.O_NONBLOCK)
+        firmware = start(*command)
+        while not select.select([reader], [], [], 10.0)[0] or not os.read(reader, 1):
+            assert firmware.poll() is None
+        os.close(reader)
+    out, error = firmware.communicate(timeout=120)
+    assert firmware.returncode == 0, error
+    assert "done: " in out and int(out.split()[1]) > 500
+    lost = [line for line in error.splitlines() if "lost" in line]
+    assert len(lost) == 1 and lost[0].startswith(f"reed_firmware: {candump}: ") and "frames lost" in lost[0], error
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_closed_standard_streams_leave_a_whole_log(program, tmp_path):
+    """A log that is opened as number 2 would get the complaints."""
+    log = tmp_path / "log"
+    arguments = ["--config", "press_known", "--bus", bus(43314), "--clock", "lockstep", "--log", log]
+    closed = start("bash", "-c", 'exec "$@" <&- >&- 2>&-', "_", PROGRAMS[program], *arguments)
+    if program == "reed_plant_sim":
+        time.sleep(0.5)
+        closed.send_signal(signal.SIGINT)
+    assert closed.wait(timeout=30) == (3 if program == "reed_firmware" else 0)  # nobody answers the controller
+    raw = log.read_bytes()
+    assert not raw or raw.startswith(b"\xed\xa1\xda\x01"), raw[:80]
+    assert b"reed_" not in raw.replace(b"REED_", b"")
+
+
+def test_a_second_arm_on_the_same_bus_is_refused_before_it_answers(plant):
+    """Unless the machine holds the first pair up while the second arm listens: then it is tried again."""
+    arm = plant(43315, "--clock", "lockstep")
+    for _ in range(5):
+        firmware = start(FIRMWARE, "--config", "press_known", "--bus", bus(43315), "--clock", "lockstep", "--no-lcm")
+        await_controller(arm)
+        second = start(PLANT, "--config", "press_known", "--bus", bus(43315), "--clock", "lockstep", "--no-lcm")
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            second.wait(timeout=5)
+        status, _, error = end(second)
+        end(firmware)
+        if status == 3:
+            break
+    assert status == 3
+    assert error == f"reed_plant_sim: another arm already answers on {bus(43315)}; end it, or choose another bus with --bus\n"

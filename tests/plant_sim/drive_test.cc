@@ -110,7 +110,7 @@ class DriveChainTest : public ::testing::Test {
     return arm;
   }
   bool Ask(DriveRequest request, double tau_Nm = 0.0, double fastest_radps = kAtRest) {
-    std::array<double, bus::kMaxJoints> torque{};
+    std::array<double, kMaxJoints> torque{};
     torque.fill(tau_Nm);
     return chain_.Command(request, torque, fastest_radps);
   }

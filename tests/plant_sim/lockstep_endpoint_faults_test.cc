@@ -74,6 +74,24 @@ TEST_F(Lockstep, ACycleNumberThatGoesBackRestartsTheArm) {
   EXPECT_EQ(recorder_.Count(PlantEvent::kControllerRestarted), 1);
 }
 
+TEST_F(Lockstep, ACycleNumberThatWrapsIsTheNextOneAndNoRestart) {
+  constexpr std::uint32_t kFirst = 0xFFFFFFFD;  // three before the wrap
+  Cycle(kFirst, DriveRequest::kReady);
+  for (std::uint32_t k = 1; k < 8; ++k) Cycle(kFirst + k, DriveRequest::kEnable, kTau_Nm);
+  EXPECT_EQ(state(), DriveState::kEnabled);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kControllerRestarted), 0);
+  EXPECT_EQ(endpoint_->robot().time_s(), 8 * kPeriod_s);
+  EXPECT_EQ(recorder_.Plants().back().cycle, (std::int64_t{1} << 32) + 4) << "the record counts on";
+  EXPECT_EQ(recorder_.Plants().back().utime, 1000 * ((std::int64_t{1} << 32) + 4));
+}
+
+TEST_F(Lockstep, ACycleNumberThatLeapsIsAnotherControllers) {
+  for (std::uint32_t k = 3'000'000'000; k < 3'000'000'004; ++k) SyncAndTake(k);
+  SyncAndTake(0);  // a controller that was started anew: 1.3 thousand million ahead, modulo 2^32
+  EXPECT_EQ(recorder_.Count(PlantEvent::kControllerRestarted), 1);
+  EXPECT_EQ(recorder_.Plants().back().t_s, 0.0);
+}
+
 TEST_F(Lockstep, ANewControllerWithFreshCountersIsServedFromItsFirstFrames) {
   Enable();
   for (std::uint32_t k = 2; k < 60; ++k) Cycle(k, DriveRequest::kEnable, kTau_Nm);
@@ -117,6 +135,17 @@ TEST_F(Lockstep, FramesOfNobodysConcernAreIgnored) {
   EXPECT_EQ(endpoint_->syncs(), 0);
   EXPECT_EQ(endpoint_->rejected(), 2U);
   EXPECT_TRUE(wire_.controller.inbox.empty());
+}
+
+TEST_F(Lockstep, ADamagedStateFrameIsNoOtherArm) {
+  bus::Encoder another_arm;
+  bus::Frame state = another_arm.JointState(0, {});
+  state.data[8] ^= 1U;
+  controller_.Send(state);
+  controller_.Sync(0);
+  endpoint_->Poll(0);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kAnotherArm), 0);
+  EXPECT_EQ(endpoint_->rejected(), 1U);
 }
 
 TEST_F(Lockstep, AnotherArmOnTheBusIsToldOnceAndAnswersGoOn) {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "reed/config/description/cores.h"
-#include "reed/plant/process/thread_rights.h"
 #include "reed/rt/monotonic.h"
+#include "reed/rt/rights.h"
 
 namespace reed::plant {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::int64_t kMs = 1'000'000;
 bool Hog(int priority, std::int64_t for_ns) {
   bool granted = false;
   std::thread([&] {
-    granted = PinTo(LoopCore({})) && RaiseTo(priority);
+    granted = rt::PinTo(LoopCore({})) && rt::RaiseTo(priority);
     const std::int64_t end_ns = rt::NowNs() + for_ns;
     while (granted && rt::NowNs() < end_ns) {
     }

@@ -1,6 +1,10 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <reed/event_t.hpp>
@@ -10,8 +14,6 @@
 #include <vector>
 
 #include "reed/plant/record/publisher.h"
-#include "reed/plant/record/rate_limit.h"
-#include "reed/plant/record/record_queue.h"
 
 namespace reed::plant {
 namespace {
@@ -31,51 +33,6 @@ PlantRecord NumberedRecord(int k) {
   record.stalls = std::int64_t{3} * k;
   record.stood_s = 0.25;
   return record;
-}
-
-TEST(RecordQueue, RefusesWhenFullAndKeepsOrder) {
-  RecordQueue queue(4);
-  for (int k = 0; k < 4; ++k) EXPECT_TRUE(queue.TryPush(NumberedRecord(k)));
-  EXPECT_FALSE(queue.TryPush(NumberedRecord(4)));
-  Record record;
-  for (int k = 0; k < 4; ++k) {
-    ASSERT_TRUE(queue.TryPop(record));
-    EXPECT_EQ(std::get<PlantRecord>(record).cycle, k);
-  }
-  EXPECT_FALSE(queue.TryPop(record));
-}
-
-TEST(RecordQueue, HandsEverythingFromOneThreadToAnotherInOrder) {
-  RecordQueue queue(64);
-  constexpr int kCount = 20000;
-  std::thread producer([&] {
-    for (int k = 0; k < kCount; ++k) {
-      while (!queue.TryPush(NumberedRecord(k))) std::this_thread::yield();
-    }
-  });
-  Record record;
-  for (int k = 0; k < kCount; ++k) {
-    while (!queue.TryPop(record)) std::this_thread::yield();
-    const auto& plant = std::get<PlantRecord>(record);
-    if (plant.cycle != k || plant.motor_angle[0] != 0.5 * k) ADD_FAILURE() << "record " << k;
-  }
-  producer.join();
-}
-
-TEST(RateLimit, LetsAnEvenStreamAtTheLimitPassWholeAlthoughItComesInBatches) {
-  RateLimit limit(1000.0);
-  int passed = 0;
-  for (std::int64_t batch = 1; batch <= 500; ++batch) {
-    for (int i = 0; i < 2; ++i) passed += limit.Allow(batch * 2'000'000) ? 1 : 0;
-  }
-  EXPECT_EQ(passed, 1000);
-}
-
-TEST(RateLimit, HoldsAFasterStreamToTheLimit) {
-  RateLimit limit(1000.0);
-  int passed = 0;
-  for (std::int64_t k = 1; k <= 100'000; ++k) passed += limit.Allow(k * 100'000) ? 1 : 0;  // 10 kHz for 10 s
-  EXPECT_NEAR(passed, 10'000 + 100, 2);  // and the bucket's depth
 }
 
 class PublisherLog : public ::testing::Test {
@@ -160,10 +117,55 @@ TEST_F(PublisherLog, EqualRecordsMakeEqualFiles) {
   EXPECT_EQ(first, bytes());
 }
 
+/// Messages up to the end of the file; -1 when the last one is not whole.
+int WholeMessages(const std::string& path) {
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "r");
+  int count = 0;
+  std::int64_t read_bytes = 0;
+  while (lcm_eventlog_event_t* entry = lcm_eventlog_read_next_event(log)) {
+    constexpr int kHeaderBytes = 28;
+    read_bytes += kHeaderBytes + entry->channellen + entry->datalen;
+    ++count;
+    lcm_eventlog_free_event(entry);
+  }
+  lcm_eventlog_destroy(log);
+  return read_bytes == bytes ? count : -1;
+}
+
+TEST_F(PublisherLog, HoldsWholeRecordsAtAnyTimeSoThatAKilledPlantLeavesALogToRead) {
+  constexpr int kCount = 700;  // no multiple of what is written at once
+  Publisher publisher(Config());
+  for (int k = 0; k < kCount; ++k) publisher.Put(NumberedRecord(k));
+  int seen = 0;
+  for (int tries = 0; tries < 500 && seen < kCount; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    seen = WholeMessages(path_);
+  }
+  EXPECT_EQ(seen, kCount) << "the file ends with a whole record soon after the last one";
+}
+
 TEST_F(PublisherLog, AFullDiskIsReportedAndDelaysNobody) {
   Publisher publisher({"/dev/full", false, false, WhenFull::kWait});
   for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));
   EXPECT_FALSE(publisher.Finish());
+}
+
+int PublishIntoAPipeThatNobodyReads(const std::string& fifo) {
+  if (mkfifo(fifo.c_str(), 0600) != 0) return 99;
+  const int reader = open(fifo.c_str(), O_RDONLY | O_NONBLOCK);
+  const std::atomic<bool> stop{true};
+  Publisher publisher({fifo, false, false, WhenFull::kWait, &stop});
+  for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));  // ends, although nothing is taken
+  std::fprintf(stderr, "dropped %d, ", publisher.dropped() > 0 ? 1 : 0);
+  publisher.Finish();
+  close(reader);
+  return 0;
+}
+
+TEST_F(PublisherLog, ALogThatTakesNothingIsNamedAndGivenUpOnceTheRunShallStop) {
+  EXPECT_EXIT(_exit(PublishIntoAPipeThatNobodyReads(path_)), ::testing::ExitedWithCode(3),
+              "dropped 1, .*lcmlog: takes nothing any more and was given up");
 }
 
 TEST_F(PublisherLog, APathThatCannotBeWrittenIsOneClearError) {

@@ -80,6 +80,33 @@ TEST_F(Wall, TheArmStandsStillUntilTheFirstSync) {
   EXPECT_EQ(wire_.plant.last_deadline_ns, now_ns_ + 50 * kMs) << "and nobody is woken for it";
 }
 
+TEST_F(Wall, FramesOfNobodysConcernCostNoIntegration) {
+  Enable();
+  const double before_s = endpoint_->robot().time_s();
+  bus::Frame damaged = controller_.CommandFrame(1, DriveRequest::kEnable, kTau_Nm);
+  damaged.data[8] ^= 1U;
+  for (int i = 0; i < 40; ++i) {
+    controller_.Send(damaged);
+    At(2 * kMs + i * kMs / 10);
+  }
+  EXPECT_EQ(endpoint_->robot().time_s(), before_s);
+  controller_.Sync(2);
+  At(7 * kMs);
+  EXPECT_NEAR(endpoint_->robot().time_s(), 7e-3, 1e-12) << "nothing of the time is lost";
+}
+
+TEST_F(Wall, AnArmThatNobodyAsksMovesOnUnderForeignFramesAllTheSame) {
+  Enable();
+  bus::Frame damaged = controller_.CommandFrame(1, DriveRequest::kEnable, kTau_Nm);
+  damaged.data[8] ^= 1U;
+  for (int i = 0; i < 70; ++i) {
+    controller_.Send(damaged);
+    At(2 * kMs + i * kMs);
+  }
+  EXPECT_GT(endpoint_->robot().time_s(), 50e-3);
+  EXPECT_EQ(state(), DriveState::kBraked) << "no command came";
+}
+
 TEST_F(Wall, StepsAreBoundedHoweverLongNoFrameCame) {
   Enable();
   At(10 * kMs);

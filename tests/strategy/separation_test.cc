@@ -38,7 +38,7 @@ class Steps {
 
  private:
   std::vector<double> limit_;
-  std::array<double, telemetry::kMaxJoints> before_{};
+  std::array<double, kMaxJoints> before_{};
 };
 
 bool IsWrench(const bus::Frame& frame) { return frame.id == bus::layout::kWrench.id; }

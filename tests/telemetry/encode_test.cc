@@ -27,7 +27,7 @@ std::vector<double> Values(int field, int count, std::int64_t cycle) {
 }
 
 TEST(Encode, ControlHasEveryFieldInItsPlace) {
-  Encoder encoder;
+  MessageEncoder encoder;
   const auto c = Decode<reed::control_t>(encoder.Control(SampleSnapshot(9, 5, 6), 1234));
   EXPECT_EQ(c.utime, 1234);
   EXPECT_EQ(c.cycle, 9);
@@ -51,7 +51,7 @@ TEST(Encode, ControlHasEveryFieldInItsPlace) {
 }
 
 TEST(Encode, MeasuredHasEveryFieldInItsPlace) {
-  Encoder encoder;
+  MessageEncoder encoder;
   const auto m = Decode<reed::measured_t>(encoder.Measured(SampleSnapshot(8, 5, 6), 77));
   EXPECT_EQ(m.utime, 77);
   EXPECT_EQ(m.cycle, 8);
@@ -66,7 +66,7 @@ TEST(Encode, MeasuredHasEveryFieldInItsPlace) {
 }
 
 TEST(Encode, AdaptationTimingBusAndEventHaveEveryFieldInItsPlace) {
-  Encoder encoder;
+  MessageEncoder encoder;
   const Snapshot snapshot = SampleSnapshot(50, 5, 6);
   const auto a = Decode<reed::adaptation_t>(encoder.Adaptation(snapshot, 1));
   EXPECT_EQ(a.num, 6);
@@ -101,7 +101,7 @@ TEST(Encode, AdaptationTimingBusAndEventHaveEveryFieldInItsPlace) {
 }
 
 TEST(Encode, TheLargestArmFitsOneDatagram) {
-  Encoder encoder;
+  MessageEncoder encoder;
   const Snapshot largest = SampleSnapshot(50, kMaxJoints, kMaxParameters);
   EXPECT_LT(encoder.Control(largest, 0).size(), kMaxMessageBytes);
   EXPECT_LT(encoder.Measured(largest, 0).size(), kMaxMessageBytes);
@@ -110,7 +110,7 @@ TEST(Encode, TheLargestArmFitsOneDatagram) {
 }
 
 TEST(Encode, NumbersBeyondTheArraysAreCutAndNotRead) {
-  Encoder encoder;
+  MessageEncoder encoder;
   Snapshot snapshot = SampleSnapshot(1, kMaxJoints, kMaxParameters);
   snapshot.dof = 1000;
   snapshot.num_parameters = -3;
@@ -119,7 +119,7 @@ TEST(Encode, NumbersBeyondTheArraysAreCutAndNotRead) {
 }
 
 TEST(Encode, AfterTheFirstCycleTheHeapIsLeftAlone) {
-  Encoder encoder;
+  MessageEncoder encoder;
   const Snapshot snapshot = SampleSnapshot(50, 7, 12);
   const auto encode_all = [&] {
     encoder.Measured(snapshot, 0);

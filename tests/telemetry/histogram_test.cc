@@ -61,7 +61,7 @@ TEST(TimingHistograms, AMessageHoldsEveryValueAndFitsOneDatagramHoweverWideTheyS
     timing.compute_ns = 5000;
     histograms.Add(timing);
   }
-  Encoder encoder;
+  MessageEncoder encoder;
   reed::histogram_t message;
   histograms.Fill(1, 77, 88, message);
   EXPECT_EQ(message.name, "rx");

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
-#include "reed/firmware/record/rate_limit.h"
 #include "reed/firmware/record/time_base.h"
 #include "reed/firmware/snapshot/snapshot.h"
+#include "reed/telemetry/rate_limit.h"
 
 namespace reed::telemetry {
 namespace {

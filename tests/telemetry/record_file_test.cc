@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/firmware/record/event_log.h"
+#include "reed/telemetry/event_log.h"
 
 namespace reed::telemetry {
 namespace {

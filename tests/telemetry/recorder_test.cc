@@ -1,18 +1,22 @@
 #include "reed/firmware/record/recorder.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "reed/tests/telemetry/sample_snapshot.h"
 
@@ -232,6 +236,33 @@ TEST_F(RecorderTest, AFullDiskIsCountedAndTheRingIsDrainedOn) {
   ASSERT_EQ(report.Problems().size(), 2U);
   EXPECT_EQ(report.Problems()[0],
             "/dev/full: No space left on device; the file ends there (12106 messages lost, 0 written)");
+}
+
+int RecordIntoAPipeThatNobodyReads(const std::string& fifo) {
+  if (mkfifo(fifo.c_str(), 0600) != 0) return 99;
+  const int reader = open(fifo.c_str(), O_RDONLY | O_NONBLOCK);
+  SnapshotRing ring(64);
+  Recorder recorder({"", fifo, "vcan0", false, ""}, TimeBase::Lockstep(1000.0), ring, SampleEventText);
+  recorder.Start();
+  constexpr int kStuck = 200;  // ms without room in the ring
+  std::int64_t cycle = 0;
+  for (int full = 0; full < kStuck;) {
+    if (ring.Push(SampleSnapshot(cycle, 5, 6))) {
+      ++cycle;
+      full = 0;
+    } else {
+      ++full;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  recorder.Stop();
+  close(reader);
+  return 0;
+}
+
+TEST_F(RecorderTest, AFileThatTakesNothingIsNamedAndGivenUpAfterAWhile) {
+  EXPECT_EXIT(_exit(RecordIntoAPipeThatNobodyReads(Path("fifo"))), ::testing::ExitedWithCode(3),
+              "fifo: takes nothing any more and was given up");
 }
 
 /// A file size limit is the one full disk that every user can make. In a child: it cannot be lifted again.

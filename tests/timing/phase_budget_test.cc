@@ -42,7 +42,7 @@ TEST(PhaseBudget, TheEventsTextTellsTheLastThreeCyclesPhaseTimes) {
   Rig rig(12);
   SlowCompute(rig);
   rig.Run();
-  telemetry::Encoder encoder;
+  telemetry::MessageEncoder encoder;
   const telemetry::Bytes bytes = encoder.Event(rig.Recorded()[4], 0, "a phase was too long", 0);
   reed::event_t event;
   ASSERT_GT(event.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);

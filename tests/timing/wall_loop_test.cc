@@ -1,6 +1,7 @@
 // Part 2 of the timing budget, in virtual time: the grid, overrun policies, stalls. No real waiting.
 #include <gtest/gtest.h>
 
+#include "reed/firmware/startup/loop_options.h"
 #include "reed/tests/timing/wall_loop_rig.h"
 
 namespace reed {
@@ -183,6 +184,17 @@ TEST(WallLoop, ACycleKnowsThatMoreThanAPeriodHasPassed) {
   rig.StallAt5(3 * kMs);
   rig.Run();
   for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(rig.cycle.seen[k].gap, k == 6) << k;
+}
+
+TEST(LockstepLoop, ARingThatNobodyEmptiesDoesNotKeepARunThatShallStop) {
+  rt::VirtualClock clock;
+  test::FakeCycle cycle(clock, 100);
+  telemetry::SnapshotRing ring(4);
+  const std::atomic<bool> stop{true};
+  const LoopResult result = RunLockstep(cycle, ring, stop);
+  EXPECT_EQ(result.cycles, 100);
+  EXPECT_EQ(result.dropped, 96);
+  EXPECT_LT(result.wall_s, 30.0) << "the patience is for the whole run";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reed/inspect/arm_inspector.h"
 #include "reed/inspect/case_file.h"
 #include "reed/inspect/modes_query.h"
+#include "reed/rt/program.h"
 
 namespace {
 
@@ -37,9 +38,7 @@ int InspectStates(const std::string& arm_name, const std::string& states) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App app{"The model and the law as numbers, computed by the code that the firmware runs",
                "reed_inspect"};
   std::string arm, states = "-", beam;
@@ -72,4 +71,10 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << '\n';
     return kWrongInput;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return reed::rt::RunProgram("reed_inspect", [&] { return Run(argc, argv); });
 }

@@ -2,6 +2,9 @@
 // explicit: without the operator's wish the arm stays ready with its brakes closed. RT: safe.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "reed/core/safety/drive_state.h"
 #include "reed/core/safety/mode_table.h"
 
@@ -44,7 +47,7 @@ class Supervisor {
   bool start_wanted() const noexcept { return start_wanted_; }
   bool enabling() const noexcept { return enabling_; }
   int cycles_enabling() const noexcept { return cycles_enabling_; }
-  int cycles_in_mode() const noexcept { return cycles_in_mode_; }
+  std::int64_t cycles_in_mode() const noexcept { return cycles_in_mode_; }
 
   DriveRequest Request() const noexcept {
     switch (mode_) {
@@ -64,7 +67,7 @@ class Supervisor {
     if (mode_ == Mode::kFault) return seen.reset && !seen.trip ? Event::kReset : Event::kNone;
     if (seen.trip) return Event::kTrip;
     if (seen.stop && (mode_ == Mode::kActive || mode_ == Mode::kReady)) return Event::kStop;
-    fresh_in_row_ = seen.all_fresh ? fresh_in_row_ + 1 : 0;
+    fresh_in_row_ = seen.all_fresh ? std::min(fresh_in_row_ + 1, kFreshInRow) : 0;
     if (mode_ == Mode::kReady && seen.drives_braked) {  // braked ends by asking for off only
       fresh_in_row_ = 0;
       return Event::kBraked;
@@ -78,7 +81,7 @@ class Supervisor {
   bool start_wanted_;
   bool enabling_ = false;
   int fresh_in_row_ = 0;
-  int cycles_in_mode_ = 0;
+  std::int64_t cycles_in_mode_ = 0;
   int cycles_enabling_ = 0;  // for how long the drives have been asked
   Mode mode_ = Mode::kOff;
 };

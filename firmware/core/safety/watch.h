@@ -2,6 +2,8 @@
 // drives are enabled, how late the controller is. RT: safe.
 #pragma once
 
+#include <algorithm>
+
 #include "reed/core/contact/force_source.h"
 #include "reed/core/cycle_state.h"
 #include "reed/core/measurement.h"
@@ -20,8 +22,15 @@ class Watch {
   Verdict CheckState(const Measurement<N>& measured, const CycleState& state,
                      const mode::Supervisor& supervisor, const Limits<N>& limits,
                      strategy::ForceSource source) noexcept {
-    const bool active = supervisor.mode() == mode::Mode::kActive;
     CountIncomplete(measured, supervisor);
+    NoteAbsence(state);
+    return NameAbsence(Check(measured, state, supervisor, limits, source));
+  }
+
+ private:
+  Verdict Check(const Measurement<N>& measured, const CycleState& state, const mode::Supervisor& supervisor,
+                const Limits<N>& limits, strategy::ForceSource source) const noexcept {
+    const bool active = supervisor.mode() == mode::Mode::kActive;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
     if (cycles_incomplete_ * T_ > kPatience_s) return Stale(measured);
@@ -44,7 +53,22 @@ class Watch {
                              measured.OldestJoint());
   }
 
- private:
+  /// Grid points that the controller missed in a row.
+  void NoteAbsence(const CycleState& state) noexcept {
+    if (state.missed_in_row_exceeded) absent_cycles_ = state.missed_in_row;
+    cycles_since_absence_ =
+        state.missed_in_row_exceeded ? 0 : std::min(cycles_since_absence_ + 1, Measurement<N>::kNever);
+  }
+
+  /// What was measured last before an absence and never since is old because of the absence, which is the
+  /// reason to give.
+  Verdict NameAbsence(const Verdict& verdict) const noexcept {
+    const bool stale = verdict.trip == Reason::kStaleMeasurement || verdict.trip == Reason::kStaleWrench;
+    if (stale && absent_cycles_ > 0 && cycles_since_absence_ <= verdict.value)
+      return {Reason::kMissedCycles, -1, static_cast<double>(absent_cycles_), 0};
+    return verdict;
+  }
+
   static Verdict Stale(const Measurement<N>& measured) noexcept {
     return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()), 0};
   }
@@ -69,6 +93,8 @@ class Watch {
   static constexpr double kTimeToEnable_s = 1.0;  // a brake takes some 0.1 s to open
 
   double T_;
+  int absent_cycles_ = 0;  // of the last absence
+  int cycles_since_absence_ = Measurement<N>::kNever;
   int cycles_incomplete_ = 0;  // off, although an arm is heard
 };
 

@@ -1,4 +1,4 @@
-#include "reed/firmware/record/record_file.h"
+#include "reed/telemetry/record_file.h"
 
 #include <stdio_ext.h>
 #include <unistd.h>

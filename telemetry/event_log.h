@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "reed/firmware/record/encode.h"
-#include "reed/firmware/record/record_file.h"
+#include "reed/telemetry/message.h"
+#include "reed/telemetry/record_file.h"
 
 namespace reed::telemetry {
 

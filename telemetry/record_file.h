@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "reed/firmware/record/sink_report.h"
+#include "reed/telemetry/sink_report.h"
 
 namespace reed::telemetry {
 

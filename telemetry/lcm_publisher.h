@@ -7,17 +7,15 @@
 #include <memory>
 #include <string>
 
-#include "reed/firmware/record/encode.h"
-#include "reed/firmware/record/sink_report.h"
+#include "reed/telemetry/message.h"
+#include "reed/telemetry/sink_report.h"
 
 namespace reed::telemetry {
 
 class LcmPublisher {
  public:
-  /// @param url  of liblcm; empty: the environment's LCM_DEFAULT_URL, or else the local default. A provider
-  /// that may
-  ///             block (tcpq) or a network that is not there leaves the publisher off, with report().problem
-  ///             saying why.
+  /// @param url  of liblcm; empty: the environment's LCM_DEFAULT_URL, or else the local default. An address that is not used
+  /// (lcm_url.h) or a network that is not there leaves the publisher off, with report().problem saying why.
   /// @param wanted  false: off, and nothing to complain about
   LcmPublisher(const std::string& url, bool wanted);
 

@@ -1,4 +1,4 @@
-#include "reed/firmware/record/event_log.h"
+#include "reed/telemetry/event_log.h"
 
 #include <cstring>
 #include <stdexcept>
