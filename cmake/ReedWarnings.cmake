@@ -13,6 +13,12 @@ function(reed_target name)
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:reed_warnings>)
 endfunction()
 
+# What --version of a program says. The commit is not compiled in: every commit would make another program of the same code.
+function(reed_version source)
+  set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
+    "REED_VERSION=\"reed ${PROJECT_VERSION} (tools/reed --version names the commit)\"")
+endfunction()
+
 # Sources that run once, at start, or only in tests: an optimised build compiles them at -O1, half as long for the large header
 # libraries. What runs in the loop, or is measured, is never among them. At -O1 GCC 12 sees null pointers in std::string.
 set(REED_SET_UP_FLAGS "$<$<NOT:$<CONFIG:Debug>>:-O1;-Wno-null-dereference>")

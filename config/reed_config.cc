@@ -14,6 +14,7 @@ int Run(int argc, char** argv) {
   std::string scenario = "press_known", write_path;
   reed::LoadOptions options;
   bool keys = false;
+  app.set_version_flag("--version", REED_VERSION);
   app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
   app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
   app.add_option("--set", options.set, "SECTION.KEY=VALUE, repeatable")->take_all();

@@ -11,6 +11,7 @@ Options ParseOptions(int argc, char** argv) {
   Options options;
   CLI::App app{
       "Real-time controller for robot arms that bend: SYNC out, states in, torques out, telemetry on LCM."};
+  app.set_version_flag("--version", REED_VERSION);
   app.add_option("--config", options.config, "scenario: a name in config/scenarios or a TOML file")
       ->required();
   app.add_option("--arm", options.load.arm, "arm: a name in config/arms or a file; default: the scenario's");

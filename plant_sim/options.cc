@@ -11,6 +11,7 @@ Options ParseOptions(int argc, char** argv) {
   Options options;
   CLI::App app{
       "Simulated robot arm that bends: drives, joints, links, wall and sensors behind a CAN FD bus."};
+  app.set_version_flag("--version", REED_VERSION);
   app.add_option("--config", options.config, "scenario: a name in config/scenarios or a TOML file")
       ->required();
   app.add_option("--arm", options.load.arm,

@@ -283,6 +283,15 @@ def test_a_bad_campaign_file_is_refused_with_its_key(tmp_path, text, told):
         definition.load(path)
 
 
+def test_a_description_may_have_lines(tmp_path):
+    path = tmp_path / "good.toml"
+    path.write_text(HEAD.format(scenario="x") + 'description = """one\ntwo"""\n')
+    assert definition.load(path).description == "one\ntwo"
+    path.write_text(HEAD.format(scenario="x") + 'description = "one\\u001btwo"\n')
+    with pytest.raises(definition.UsageError, match="campaign.description = .*without control characters"):
+        definition.load(path)
+
+
 @pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"{}", b"\xff\xfe", b"[" * 50000, b'{"draws": "4"}', b'{"draws": true}',
                                     b'{"seed": -1}', b'{"set": "a=b"}', b'{"set": [3]}', b'{"count": 1000000000000}', b'{"shard": 3}'])
 def test_damaged_options_are_one_line(reed, tmp_path, damage):

@@ -4,11 +4,12 @@ import ast
 import json
 import os
 import subprocess
+import time
 
 import pytest
 
 from reed_tools import cli
-from reed_tools.paths import ROOT
+from reed_tools.paths import PYTHON, ROOT
 
 BUS = "udp:239.74.163.2:43978"  # a port of its own: tests run side by side
 BOOTSTRAP = ROOT / "tools" / "reed"
@@ -71,6 +72,19 @@ def test_a_reader_that_leaves_ends_no_run(reed, tmp_path):
     assert process.wait(60) == 1, process.stderr.read()  # of the checks
     assert process.stderr.read() == ""
     assert json.loads((tmp_path / "run" / "summary.json").read_text())["cycles"] == 1100
+
+
+def test_a_slow_reader_of_a_non_blocking_pipe_gets_everything(tmp_path):
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    say = f"import sys; sys.path.insert(0, {str(ROOT / 'tools')!r})\nfrom reed_tools import streams\nstreams.install()\n" \
+          "print('x' * 1_000_000, flush=True)\nsys.exit(streams.finish(0))"
+    process = subprocess.Popen([*PYTHON, "-c", say], stdout=writing, stderr=subprocess.PIPE)
+    os.close(writing)
+    time.sleep(1.0)
+    with open(reading, "rb") as pipe:
+        assert pipe.read() == b"x" * 1_000_000 + b"\n"
+    assert process.wait(20) == 0, process.stderr.read()
 
 
 def test_a_full_disk_behind_standard_output_is_told_when_the_run_is_done(reed, tmp_path):

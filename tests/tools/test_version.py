@@ -7,7 +7,7 @@ import pytest
 
 from reed_tools import cli, versions
 from reed_tools.cli import COMMANDS
-from reed_tools.paths import ROOT
+from reed_tools.paths import ROOT, program
 from reed_tools.text import did_you_mean
 
 
@@ -40,3 +40,9 @@ def test_what_was_mistyped_is_named(reed, argv, told):
 
 def test_what_is_near_to_nothing_gets_no_hint():
     assert did_you_mean("xyzzy", COMMANDS) == "" and did_you_mean("run", COMMANDS) == ""
+
+
+@pytest.mark.parametrize("name", ["reed_config", "reed_firmware", "reed_inspect", "reed_plant_sim"])
+def test_every_program_says_its_version(name):
+    done = subprocess.run([program(name), "--version"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"reed {versions.reed()} (tools/reed --version names the commit)\n", "")

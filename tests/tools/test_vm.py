@@ -61,6 +61,11 @@ def test_works_wherever_temporary_files_and_the_checkout_are(tmp_path, folder):
         shutil.rmtree(scratch)
 
 
+def test_works_with_a_temporary_folder_that_is_not_there():
+    done = subprocess.run(vm.command(["true"]), env={**os.environ, "TMPDIR": "/no/such/folder"}, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_leaves_nothing_behind(tmp_path):
     environment = {**os.environ, "TMPDIR": str(tmp_path)}
     subprocess.run(vm.command(["true"]), env=environment, check=True, timeout=60)

@@ -44,6 +44,7 @@ int Run(int argc, char** argv) {
   std::string arm, states = "-", beam;
   std::vector<double> pose;
   int modes = 0;
+  app.set_version_flag("--version", REED_VERSION);
   app.add_option("--arm", arm, "name in config/arms, or a path");
   app.add_option("--states", states, "JSON file with {\"cases\": [...]}, or - for standard input");
   app.add_option("--modes", modes, "instead of states: this many modes, with locked motors")

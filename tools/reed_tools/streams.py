@@ -2,6 +2,7 @@
 
 import io
 import os
+import select
 import sys
 
 
@@ -12,7 +13,9 @@ class Lasting(io.FileIO):
 
     def write(self, data) -> int:
         try:
-            return super().write(data)
+            while (count := super().write(data)) is None:  # the other end made it non-blocking, and is slow
+                select.select([], [self.fileno()], [])
+            return count
         except OSError as error:
             self.lost = error
             nowhere = os.open(os.devnull, os.O_WRONLY)

@@ -12,7 +12,7 @@ from pathlib import Path
 from reed_tools.errors import UsageError
 from reed_tools.figures import checks
 from reed_tools.paths import ROOT
-from reed_tools.text import did_you_mean
+from reed_tools.text import did_you_mean, plain
 
 CAMPAIGNS = ROOT / "config" / "campaigns"
 DISTRIBUTIONS = ("uniform", "log_uniform", "integer", "choice")
@@ -126,7 +126,7 @@ def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Ca
     listed = [read_drawn(path, entry, position) for position, entry in enumerate(tree.get("draw", []))]
     given = {entry.partition("=")[0] for entry in extra}
     fixed = [f"{key}={text_of(setting(path, key, value))}" for key, value in tree.get("set", {}).items()]
-    return Campaign(name(path, "campaign.name", head["name"]), name(path, "campaign.description", head.get("description", "")),
+    return Campaign(name(path, "campaign.name", head["name"]), name(path, "campaign.description", head.get("description", ""), keep="\n\t"),
                     name(path, "campaign.scenario", head["scenario"]),
                     whole(path, "campaign.draws", head["draws"], 1, MOST_DRAWS),
                     whole(path, "campaign.seed", head.get("seed", 1) if seed is None else seed, 0),
@@ -136,10 +136,10 @@ def load(path: Path, seed: int | None = None, extra: tuple[str, ...] = ()) -> Ca
                     (*fixed, *extra), tuple(drawn for drawn in listed if drawn.key not in given), text)
 
 
-def name(path: Path, key: str, value) -> str:
-    """Text that fits a line; it is shown on terminals, in pages and in XML."""
-    if not isinstance(value, str) or not value.isprintable():
-        raise UsageError(f"{path}: {key} = {value!r}: expected text on one line, without control characters")
+def name(path: Path, key: str, value, keep: str = "") -> str:
+    """Text that can be shown on terminals, in pages and in XML; a description may have lines."""
+    if not isinstance(value, str) or plain(value, keep) != value:
+        raise UsageError(f"{path}: {key} = {value!r}: expected text without control characters{'' if keep else ', on one line'}")
     return value
 
 
