@@ -70,10 +70,12 @@ class Rules {
 
   /// A reading that saturates below the limit would never exceed it.
   void ForceLimitIsMeasured() const {
-    if (s_.limits.contact_force_N >= s_.sensors.force_range_N)
+    const double bias = s_.sensors.force_bias_N.cwiseAbs().maxCoeff();
+    if (s_.limits.contact_force_N >= s_.sensors.force_range_N - bias)
       Fail("limits.contact_force_N",
-           "rule contact_force_N < sensors.force_range_N: " + ToText(s_.limits.contact_force_N) +
-               " is not below " + ToShortText(s_.sensors.force_range_N) + " N, where the reading saturates");
+           "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|: " +
+               ToText(s_.limits.contact_force_N) + " is not below " +
+               ToShortText(s_.sensors.force_range_N - bias) + " N, where the reading saturates");
   }
 
   void AgesAreGraded() const {

@@ -158,7 +158,9 @@ void Fields(V& v, LimitConfig& c) {
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
            "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
-  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4}, "measured force magnitude that trips");
+  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4},
+           "contact force that trips: magnitude of the tared sensor, or the observed normal force of an arm "
+           "that presses without one");
   v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},
             "measurements up to this age are used as they are");
   v.Integer("stop_age_cycles", c.stop_age_cycles, {"1", 1, 1000},

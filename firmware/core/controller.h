@@ -39,11 +39,11 @@ class Controller {
   /// One period: estimate, decide, control, protect.
   const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
     events_.Clear();
-    verdict_ =
-        watch_.CheckState(measured, state, supervisor_, limits_, source_);  // estimate what it is worth
-    Decide(measured, state);                                                // decide
-    const strategy::Decision<N>& decision = Control(measured, state);       // control
-    command_.torque = Protect(decision, measured);                          // protect: the last word
+    verdict_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
+                                 ContactForce(measured));              // estimate what it is worth
+    Decide(measured, state);                                           // decide
+    const strategy::Decision<N>& decision = Control(measured, state);  // control
+    command_.torque = Protect(decision, measured);                     // protect: the last word
     command_.request = supervisor_.Request();
     NoteDecision(decision);
     was_active_ = was_active_ || active();
@@ -72,6 +72,10 @@ class Controller {
 
  private:
   bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
+
+  double ContactForce(const Measurement<N>& measured) const noexcept {
+    return strategy_.ContactForce(measured, !limits_.TooOld(measured.wrench_age));
+  }
 
   void Decide(const Measurement<N>& measured, const CycleState& state) noexcept {
     mode::Observation seen;

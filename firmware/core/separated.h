@@ -99,6 +99,12 @@ class Separated {
   }
   bool tared() const noexcept { return normal_force_.settled(); }
 
+  /// What the wall feels, N, for the limit: the tared sensor; without it the observer, while the arm presses.
+  double ContactForce(const Measurement<N>& measured, bool sensed) const noexcept {
+    if (sensed) return normal_force_.Felt(measured.force).norm();
+    return decision_.source == ForceSource::kObserver ? std::abs(decision_.f) : 0.0;
+  }
+
   const AdaptiveState<N, P>& adaptive() const noexcept { return adaptive_; }
   const model::Vec<N>& observed() const noexcept { return disturbance_.r(); }
   const control::ForceState& force_state() const noexcept { return force_.state(); }

@@ -195,6 +195,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kCollision, 7},
                                             {Reason::kPhaseBudgetInRow, 44},
                                             {Reason::kStaleWrench, 43},
+                                            {Reason::kWrenchRange, 45},
                                             {Reason::kTorque, 96},
                                             {Reason::kTorqueRate, 97},
                                             {Reason::kNormalSpeed, 98},
@@ -207,8 +208,8 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36,
-                            37, 38, 39, 40, 41, 42, 43, 44, 96, 97, 98, 99, 100};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36, 37,
+                            38, 39, 40, 41, 42, 43, 44, 45, 96, 97, 98, 99, 100};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {

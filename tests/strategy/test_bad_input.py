@@ -32,6 +32,9 @@ REFUSED = {
     "a start beyond a joint limit": (
         "press_known", ["reference.start_rad=[0, 1.9, -1.764384, -2.43457, 0]"], ["reference.start_rad", "joint 2", "beyond its limit"]),
     "a wall that the arm cannot reach": ("press_known", ["wall.point_m=[0.4, 0, 2.5]"], ["wall.point_m", "2.5 m", "reaches 1 m"]),
+    "a contact limit that a biased sensor cannot reach": (
+        "press_known", ["sensors.force_bias_N=[0, -90, 0]", "sensors.force_range_N=140"],
+        ["limits.contact_force_N", "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|", "60", "50 N"]),
     "a force without a wall": ("press_known", ["wall.present=false"], ["wall.present", "a desired force needs a wall"]),
     "auto without a force sensor": ("press_sensor_loss", ["sensors.wrench=false"], ["force.source", "auto", "need a force sensor"]),
     "a known force without a force sensor": ("press_known", ["sensors.wrench=false"], ["force.source", "known", "need a force sensor"]),

@@ -30,6 +30,8 @@ class NormalForce {
     carried_ = 0.0;
     tare_ = 0.0;
   }
+  /// The sensor's force on the arm, all axes; as read while there is no zero. N.
+  Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
   bool settled() const noexcept { return zero_.complete(); }
 
   /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the

@@ -31,6 +31,7 @@ enum class Reason : std::int32_t {
   kUnexpectedJoint = 42,
   kPhaseBudgetInRow = 44,
   kStaleWrench = 43,
+  kWrenchRange = 45,
   // limits that act
   kTorque = 96,
   kTorqueRate = 97,
@@ -87,6 +88,9 @@ constexpr const char* Text(int code) noexcept {
       return "stopped by the operator";
     case Reason::kStaleWrench:
       return "force measurement too old for the law that tracks it, cycles";
+    case Reason::kWrenchRange:
+      return "the force sensor is at the end of its range, the contact force is not known; the largest "
+             "reading, N";
     case Reason::kPhaseBudgetInRow:
       return "a phase was longer than its budget in too many cycles in a row";
     case Reason::kTorque:

@@ -1,0 +1,64 @@
+// Contact on the whole loop in virtual time: what the wall feels, before, during and after the press.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reed/tests/firmware/sil_rig.h"
+
+namespace reed {
+namespace {
+
+using mode::Mode;
+using protect::Reason;
+using test::SilRig;
+
+Scenario PressKnown() { return LoadScenario("press_known"); }
+
+/// Largest true normal force until the arm has been active this long, or stops.
+double LargestForce(SilRig& rig, double until_s) {
+  double largest_N = 0.0;
+  if (!rig.RunActive(0.001)) return largest_N;
+  while (rig.mode() == Mode::kActive && rig.snapshot().control.t_s < until_s - 0.0005) {
+    rig.Run();
+    largest_N = std::max(largest_N, rig.truth().normal_force);
+  }
+  return largest_N;
+}
+
+TEST(ContactForceLimit, JudgesWhatTheWallFeelsAndNotABiasThatHidesIt) {
+  Scenario scenario = PressKnown();
+  scenario.sensors.force_bias_N = {0.0, 0.0, -59.0};
+  scenario.force.desired_N = 75.0;
+  SilRig rig(scenario);
+  EXPECT_LT(LargestForce(rig, 2.9), 62.0);
+  EXPECT_EQ(rig.trip(), Reason::kContactForce);
+}
+
+TEST(ContactForceLimit, ABiasIsNoForceOfTheWall) {
+  Scenario scenario = PressKnown();
+  scenario.sensors.force_bias_N = {0.0, 0.0, 55.0};
+  SilRig rig(scenario);
+  EXPECT_LT(LargestForce(rig, 2.9), 10.0);
+  EXPECT_EQ(rig.mode(), Mode::kActive) << protect::Text(static_cast<int>(rig.trip()));
+  EXPECT_NEAR(rig.truth().normal_force, 8.0, 0.5);
+}
+
+TEST(ContactForceLimit, ASensorAtTheEndOfItsRangeStopsTheArm) {
+  Scenario scenario = PressKnown();
+  scenario.sensors.force_bias_N = {0.0, 0.0, 100.0};
+  scenario.sensors.force_range_N = 104.0;  // it can measure no more than 4 N of the wall
+  SilRig rig(scenario);
+  EXPECT_LT(LargestForce(rig, 2.9), 10.0);
+  EXPECT_EQ(rig.trip(), Reason::kWrenchRange);
+}
+
+TEST(ContactForceLimit, HoldsForTheObservedForceToo) {
+  Scenario scenario = LoadScenario("press_no_sensor");
+  scenario.force.desired_N = 75.0;
+  SilRig rig(scenario);
+  EXPECT_LT(LargestForce(rig, 3.9), 70.0);
+  EXPECT_EQ(rig.trip(), Reason::kContactForce);
+}
+
+}  // namespace
+}  // namespace reed
