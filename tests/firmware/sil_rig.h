@@ -8,7 +8,7 @@
 
 #include "reed/bus/codec/messages.h"
 #include "reed/config/schema/scenario_file.h"
-#include "reed/firmware/cycle/cycle_base.h"
+#include "reed/firmware/cycle/make_cycle.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/rt/clock.h"
