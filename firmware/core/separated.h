@@ -54,6 +54,7 @@ class Separated {
     disturbance_.Update(measured, kin_, adaptive_.kappa_hat, gains_.friction_speed);
     d.plan = path_.At(t_s);
     d.tip_plan = PlannedTip(d.plan);
+    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
     d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, disturbance_.r()),
                              force_.in_contact());
@@ -129,7 +130,9 @@ class Separated {
   }
 
   ForceDemand SeekForce(const Decision<N>& d, double t_s) noexcept {
-    return force_.Step(t_s, d.f, normal_.dot(kin_.tip), bandwidth_scale_, d.source == ForceSource::kKnown);
+    const NormalMotion motion{normal_.dot(kin_.tip), d.normal.J_n.dot(d.aux.e)};  // e: of the last cycle
+    const bool sensed = d.source == ForceSource::kKnown;
+    return force_.Step(t_s, d.f, motion, bandwidth_scale_, sensed);
   }
 
   Eigen::Vector3d PlannedTip(const control::Reference<N>& plan) noexcept {
@@ -140,7 +143,6 @@ class Separated {
   /// v, v̇, s: where the law shall take the arm from here (22)-(25), (30).
   void Aim(Decision<N>& d, const Measurement<N>& measured) noexcept {
     d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
-    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     if (d.force.active && law_.force_loop)
       control::ReplaceNormal<N>(d.normal, d.force.z, d.force.z_dot, d.aux);
     d.s = control::SlidingError<N>(d.aux.v, measured.theta_dot);

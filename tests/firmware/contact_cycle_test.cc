@@ -60,5 +60,53 @@ TEST(ContactForceLimit, HoldsForTheObservedForceToo) {
   EXPECT_EQ(rig.trip(), Reason::kContactForce);
 }
 
+ReferenceLeg Lift(double by_m, double duration_s) {
+  ReferenceLeg leg;
+  leg.kind = ReferenceLeg::Kind::kCartesian;
+  leg.duration_s = duration_s;
+  leg.by_m = {0.0, 0.0, by_m};
+  return leg;
+}
+
+ReferenceLeg Hold(double duration_s) {
+  ReferenceLeg leg;
+  leg.duration_s = duration_s;
+  return leg;
+}
+
+TEST(EndOfAPress, LeavesNoForceOnAWallThatThePathLeadsInto) {
+  Scenario scenario = PressKnown();
+  scenario.duration_s = 4.0;
+  scenario.force.end_s = 1.5;
+  scenario.wall.offset_m = 0.002;
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.5));
+  EXPECT_LT(LargestForce(rig, 3.9), 1.0);
+  EXPECT_EQ(rig.mode(), Mode::kActive);
+  EXPECT_GT(rig.truth().gap, -0.2e-3);
+  EXPECT_LT(rig.truth().gap, 1.5e-3) << "and does not float away";
+}
+
+TEST(EndOfAPress, LeavesNoForceWithoutASensorEither) {
+  Scenario scenario = LoadScenario("press_no_sensor");
+  scenario.force.end_s = 1.5;
+  scenario.wall.offset_m = 0.002;
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.5));
+  EXPECT_LT(LargestForce(rig, 3.9), 2.0);
+  EXPECT_EQ(rig.mode(), Mode::kActive);
+}
+
+TEST(EndOfAPress, LetsTheArmFollowAPathThatLeavesTheWall) {
+  Scenario scenario = PressKnown();
+  scenario.force.end_s = 1.0;
+  scenario.reference.legs[1] = Hold(1.4);
+  scenario.reference.legs.push_back(Lift(0.02, 0.5));
+  scenario.reference.legs.push_back(Hold(60.0));
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.8));
+  EXPECT_NEAR(rig.truth().tip[2], 0.156 + 0.02, 1e-3);
+}
+
 }  // namespace
 }  // namespace reed

@@ -8,7 +8,7 @@
 namespace reed::strategy {
 namespace {
 
-using Source = ForceConfig::Source;
+using Source = SourceSetting;
 constexpr double kT = 1e-3;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 

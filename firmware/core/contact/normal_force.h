@@ -67,8 +67,8 @@ class NormalForce {
   }
 
  private:
-  static constexpr double kTare_s = 0.1;    // faster than the weight changes
-  static constexpr double kSeek_s = 1.0;    // while the wall is sought: slower than the rise of a contact
+  static constexpr double kTare_s = 0.1;  // faster than the weight changes
+  static constexpr double kSeek_s = 1.0;  // while the wall is sought: slower than the rise of a contact
   static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
   Eigen::Vector3d normal_;
   double tare_share_, seek_share_, forget_;
