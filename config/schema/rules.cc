@@ -113,8 +113,7 @@ class Rules {
     const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
     if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
     if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
-    double reach = s_.arm.tool_offset_m.norm();
-    for (const DhRow& row : s_.arm.dh) reach += std::hypot(row.a_m, row.d_m);
+    const double reach = s_.arm.reach_m();
     const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
     if (s_.wall.present && distance > reach)
       Fail("wall.point_m",

@@ -106,15 +106,19 @@ class Controller {
   model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
     if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
     const bool sound = verdict_.trip == protect::Reason::kNone;
-    const model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
-    if (sound &&
-        verdict_.trip != protect::Reason::kNone) {  // found by the gate: the law's torque is not finite
+    model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
+    if (sound && active() && decision.force.lost) {
+      verdict_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), verdict_.limits};
+      tau = limits_.Release();
+    }
+    if (sound && verdict_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
       mode::Observation seen;
       seen.trip = true;
       Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)));
       NoteTrip();
     }
     if (decision.force.speed_limited) verdict_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
+    if (decision.force.held) verdict_.limits |= protect::LimitBit(protect::Reason::kStretch);
     return tau;
   }
 
@@ -125,6 +129,7 @@ class Controller {
     }
     if (decision.collision.joint >= 0)
       Note(protect::Reason::kCollision, decision.collision.joint, decision.collision.value);
+    if (decision.force.held_now) Note(protect::Reason::kStretchHeld, -1, decision.normal.D.norm());
     if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f);
   }
 

@@ -36,6 +36,7 @@ class Separated {
         T_(settings.period_s()),
         source_(settings.source),
         force_(settings.force_mode, settings.force, T_),
+        stretch_(settings.limits.speed, settings.reach_m),
         normal_force_(normal_, T_),
         deflection_(arm_, normal_, settings.compensate_deflection && law_.deflection_allowed, T_),
         adaptive_(gains_),
@@ -80,7 +81,7 @@ class Separated {
 
   /// Instead of Step(), after a cycle that came too late: what the last one decided.
   const Decision<N>& Repeat() noexcept {
-    decision_.force.latched_now = false;
+    decision_.force.latched_now = decision_.force.held_now = false;
     decision_.collision = {};
     disturbance_.NoteGap();
     return decision_;
@@ -130,7 +131,8 @@ class Separated {
   }
 
   ForceDemand SeekForce(const Decision<N>& d, double t_s) noexcept {
-    const NormalMotion motion{normal_.dot(kin_.tip), d.normal.J_n.dot(d.aux.e)};  // e: of the last cycle
+    NormalMotion motion{normal_.dot(kin_.tip), d.normal.J_n.dot(d.aux.e), {}};  // e: of the last cycle
+    if (wall_present_ && law_.force_loop) motion.allowed = stretch_.Step(d.normal.D, force_.state().z);
     const bool sensed = d.source == ForceSource::kKnown;
     return force_.Step(t_s, d.f, motion, bandwidth_scale_, sensed);
   }
@@ -179,6 +181,7 @@ class Separated {
   double T_;
   SourceSelector source_;
   ForceMode force_;
+  StretchGuard<N> stretch_;
   NormalForce normal_force_;
   DeflectionCompensation<N, P> deflection_;
   AdaptiveState<N, P> adaptive_;

@@ -10,6 +10,7 @@
 #include "reed/core/settings.h"
 #include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/setup/gains.h"
+#include "reed/firmware/setup/contact_checks.h"
 #include "reed/firmware/setup/path_planner.h"
 
 namespace reed {
@@ -72,6 +73,7 @@ Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
   s.force = {scenario.force.desired_N, scenario.force.start_s, scenario.force.ramp_s, scenario.force.end_s};
   s.source = internal::SourceFrom(scenario.force.source);
   s.normal = scenario.wall.normal;
+  s.reach_m = scenario.arm.reach_m();
   s.wall_present = scenario.wall.present;
   s.compensate_deflection = scenario.control.nodal_compensation;
   s.velocity_filter_hz = scenario.sensors.velocity_filter_hz;
@@ -90,7 +92,9 @@ reference::PlannedPath<N> PathFrom(const Scenario& scenario, const model::ArmMod
     model::ForwardKinematics<N, P>(arm, q, model::Vec<N>::Zero(), kin);
     return kin;
   };
-  return reference::PathPlanner<N>(pose_of, scenario).Plan();
+  reference::PlannedPath<N> path = reference::PathPlanner<N>(pose_of, scenario).Plan();
+  reference::RefusePressNearSingularity<N>(pose_of, scenario, path.View());
+  return path;
 }
 
 }  // namespace reed

@@ -196,6 +196,9 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kPhaseBudgetInRow, 44},
                                             {Reason::kStaleWrench, 43},
                                             {Reason::kWrenchRange, 45},
+                                            {Reason::kStretched, 46},
+                                            {Reason::kStretchHeld, 9},
+                                            {Reason::kStretch, 101},
                                             {Reason::kTorque, 96},
                                             {Reason::kTorqueRate, 97},
                                             {Reason::kNormalSpeed, 98},
@@ -208,8 +211,8 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36, 37,
-                            38, 39, 40, 41, 42, 43, 44, 45, 96, 97, 98, 99, 100};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  9,  32, 33, 34, 35, 36, 37,
+                            38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {
@@ -227,6 +230,7 @@ TEST(Reason, LimitsHaveOneBitEachFromBitZero) {
   EXPECT_EQ(LimitBit(Reason::kNormalSpeed), 4);
   EXPECT_EQ(LimitBit(Reason::kHeldMeasurement), 8);
   EXPECT_EQ(LimitBit(Reason::kRampDown), 16);
+  EXPECT_EQ(LimitBit(Reason::kStretch), 32);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ ForceModeConfig Config() {
 
 reference::ForceProfile Press(double newton) { return {newton, 0.0, 0.3, 1e9}; }
 
-NormalMotion At(double x) { return {x, -1.0}; }
+NormalMotion At(double x) { return {x, -1.0, {}}; }
 
 /// A tip that moves exactly as asked (s = 0), in front of a wall of stiffness k_e at x = 0.
 struct Tip {
@@ -113,7 +113,7 @@ TEST(ForceMode, WithoutAWishAsksForNothing) {
 
 /// A press of 8 N that has ended at 1.3 s, on a path that leads this far off the wall.
 ForceDemand AfterTheEnd(ForceMode& mode, double t_s, double f, double path_gap, double x = 0.0) {
-  return mode.Step(t_s, f, {x, path_gap}, 1.0);
+  return mode.Step(t_s, f, {x, path_gap, {}}, 1.0);
 }
 
 TEST(ForceMode, AfterItsEndTheWallIsTouchedWithoutForceUntilThePathLeadsOffIt) {
@@ -153,6 +153,19 @@ TEST(ForceMode, ATipThatDriftsWhileItSeeksIsBroughtBackWithinWhatItMay) {
     if (k > 0) sought += kT * 0.01;
   }
   EXPECT_LT(x, -sought + 0.01 * 0.1 + 2.5 * NormalAnchor::kMayDrift_m);
+}
+
+TEST(ForceMode, MovesNoFasterThanTheArmMayInEitherDirection) {
+  ForceMode mode(Config(), Press(8.0), kT);
+  NormalMotion held{0.0, -1.0, {0.0, 5e-3, true, false}};
+  ForceDemand demand = mode.Step(1.0, 0.0, held, 1.0);
+  EXPECT_TRUE(demand.held_now);
+  for (int k = 0; k < 500; ++k) demand = mode.Step(1.0, 0.0, held, 1.0);
+  EXPECT_TRUE(demand.held);
+  EXPECT_FALSE(demand.held_now) << "said once";
+  EXPECT_EQ(demand.z, 0.0);
+  for (int k = 0; k < 2000; ++k) demand = mode.Step(1.0, 60.0, held, 1.0);
+  EXPECT_NEAR(demand.z, -5e-3, 1e-6);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "reed/core/contact/force_loop.h"
 #include "reed/core/contact/normal_anchor.h"
+#include "reed/core/contact/stretch_guard.h"
 #include "reed/core/contact/wall_stiffness.h"
 #include "reed/core/reference/force_profile.h"
 
@@ -29,8 +30,11 @@ struct ForceDemand {
   bool active = false;       // the normal direction belongs to the force loop
   bool latched_now = false;  // contact was made in this cycle
   bool speed_limited = false;
-  double f_d = 0.0;  // N
-  double e_f = 0.0;  // N, 0 before contact
+  bool held = false;      // near a stretched arm (stretch_guard.h)
+  bool held_now = false;  // since this cycle
+  bool lost = false;      // the arm cannot press in this pose
+  double f_d = 0.0;       // N
+  double e_f = 0.0;       // N, 0 before contact
   double z = 0.0, z_dot = 0.0;
 };
 
@@ -38,6 +42,7 @@ struct ForceDemand {
 struct NormalMotion {
   double x = 0.0;          // normal tip position by motor angles, m
   double path_gap = -1.0;  // how far the path leads off the wall from there, m; < 0: into it
+  NormalSpeedRange allowed;
 };
 
 class ForceMode {
@@ -54,6 +59,7 @@ class ForceMode {
     contact_s_ = kNoContact;
     wall_.Reset();
     anchor_.Reset();
+    held_ = false;
   }
   bool in_contact() const noexcept { return contact_s_ < kNoContact; }
   /// A force is wanted now, or a wall is still touched.
@@ -76,6 +82,8 @@ class ForceMode {
       contact_s_ = t_s;
       demand.latched_now = true;
     }
+    const double into = std::min(config_.speed_limit_mps, motion.allowed.into);
+    const double off = std::min(config_.speed_limit_mps, motion.allowed.off);
     double wanted = 0.0;  // normal speed into the wall
     if (in_contact()) {
       if (pace > kPromptPace) wall_.Step(f, motion.x);  // a late f would tell a wrong stiffness
@@ -86,10 +94,14 @@ class ForceMode {
     } else {
       wanted = config_.approach_speed_mps *
                reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
-      wanted += anchor_.Step(motion.x, std::min(wanted, config_.speed_limit_mps));
+      wanted += anchor_.Step(motion.x, std::min(wanted, into));
     }
-    const double allowed = std::clamp(wanted, -config_.speed_limit_mps, config_.speed_limit_mps);
+    const double allowed = std::clamp(wanted, -off, into);
     demand.speed_limited = allowed != wanted;
+    demand.held = motion.allowed.held;
+    demand.held_now = demand.held && !held_;
+    demand.lost = motion.allowed.lost;
+    held_ = demand.held;
     // Anti-windup: no more of what the limit already refuses.
     if (pressing && in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
       state_.e_f_integral += T_ * demand.e_f;
@@ -140,6 +152,7 @@ class ForceMode {
   double T_;
   control::ForceState state_;
   double contact_s_ = kNoContact;
+  bool held_ = false;
 };
 
 }  // namespace reed::strategy
