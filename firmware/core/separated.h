@@ -37,7 +37,7 @@ class Separated {
         source_(settings.source),
         force_(settings.force_mode, settings.force, T_),
         stretch_(settings.limits.speed, settings.reach_m),
-        normal_force_(normal_, T_),
+        normal_force_(normal_, wall_present_ ? settings.force_mode.threshold_N : kNoWall_N, T_),
         deflection_(arm_, normal_, settings.compensate_deflection && law_.deflection_allowed, T_),
         adaptive_(gains_),
         disturbance_(arm_, gains_.p_0, gains_.K_o, settings.velocity_filter_hz, T_),
@@ -58,7 +58,7 @@ class Separated {
     if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
     d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, disturbance_.r()),
-                             force_.in_contact());
+                             force_.in_contact(), d.normal.J_n.dot(measured.theta_dot));
     ScaleBandwidth(d.source);
     d.force = active && d.source != ForceSource::kNone ? SeekForce(d, t_s) : ForceDemand{};
     d.desired = active
@@ -133,7 +133,7 @@ class Separated {
   ForceDemand SeekForce(const Decision<N>& d, double t_s) noexcept {
     NormalMotion motion{normal_.dot(kin_.tip), d.normal.J_n.dot(d.aux.e), {}};  // e: of the last cycle
     if (wall_present_ && law_.force_loop) motion.allowed = stretch_.Step(d.normal.D, force_.state().z);
-    const bool sensed = d.source == ForceSource::kKnown;
+    const bool sensed = d.source == ForceSource::kKnown || normal_force_.met_wall();
     return force_.Step(t_s, d.f, motion, bandwidth_scale_, sensed);
   }
 
@@ -169,6 +169,7 @@ class Separated {
 
   static constexpr double kObserverScale = 0.3;  // of the force loop while r, 1/K_o late, is all it has
   static constexpr double kScaleTime_s = 0.1;
+  static constexpr double kNoWall_N = 1e12;
   static constexpr double kCollisionShare = 0.15;  // of the torque limit
 
   const model::ArmModel<N, P>& arm_;

@@ -108,5 +108,21 @@ TEST(EndOfAPress, LetsTheArmFollowAPathThatLeavesTheWall) {
   EXPECT_NEAR(rig.truth().tip[2], 0.156 + 0.02, 1e-3);
 }
 
+TEST(WallBeforeItsTime, IsNoZeroOfTheObserver) {
+  Scenario scenario = LoadScenario("press_no_sensor");
+  scenario.force.start_s = 1.0;
+  scenario.wall.offset_m = 0.0025;
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(3.0));
+  double sum_N = 0.0, known_N = 0.0;
+  for (int k = 0; k < 900; ++k) {
+    rig.Run();
+    sum_N += rig.truth().normal_force / 900;
+    known_N += rig.snapshot().control.f / 900;
+  }
+  EXPECT_NEAR(known_N, 8.0, 0.8);
+  EXPECT_NEAR(sum_N, 8.0, 1.0);
+}
+
 }  // namespace
 }  // namespace reed
