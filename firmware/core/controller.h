@@ -92,6 +92,7 @@ class Controller {
     const mode::Event event = supervisor_.Step(seen);
     if (event != mode::Event::kNone) Note(protect::Reason::kModeChange, -1, static_cast<double>(event));
     if (seen.trip && event == mode::Event::kTrip) NoteTrip();
+    if (event == mode::Event::kStart) NoteForceZero(measured);
   }
 
   const strategy::Decision<N>& Control(const Measurement<N>& measured, const CycleState& state) noexcept {
@@ -131,6 +132,13 @@ class Controller {
       Note(protect::Reason::kCollision, decision.collision.joint, decision.collision.value);
     if (decision.force.held_now) Note(protect::Reason::kStretchHeld, -1, decision.normal.D.norm());
     if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f);
+  }
+
+  /// A sensor that touches nothing reads nothing but noise; else it has a bias, or it does touch something.
+  void NoteForceZero(const Measurement<N>& measured) noexcept {
+    const double offset = strategy_.ForceZeroOffset();
+    if (measured.wrench_age != Measurement<N>::kNever && offset > settings_.force_noise_N)
+      Note(protect::Reason::kForceZero, -1, offset);
   }
 
   void NoteTrip() noexcept {

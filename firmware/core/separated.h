@@ -99,6 +99,7 @@ class Separated {
     disturbance_.Reset(kin_, measured.theta_dot);
     collision_.Reset(disturbance_.r());
   }
+  double ForceZeroOffset() const noexcept { return normal_force_.ZeroOffset(); }  // N
   bool tared() const noexcept { return normal_force_.settled(); }
 
   /// What the wall feels, N, for the limit: the tared sensor; without it the observer, while the arm presses.

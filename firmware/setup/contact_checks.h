@@ -17,6 +17,18 @@ inline std::string Rounded(double value, int digits) {
   return text.substr(0, text.find('.') + 1 + static_cast<std::size_t>(digits));
 }
 
+/// A start behind the wall as it is believed to be: the wall's force would become the sensor's zero.
+template <int N>
+void RefuseStartBehindWall(const PoseOf<N>& pose_of, const Scenario& scenario, const JointPath<N>& path) {
+  constexpr double kRounding_m = 1e-6;  // a start at the surface is none
+  if (!scenario.wall.present) return;
+  const Eigen::Vector3d tip = pose_of(path.At(0.0).theta_d).tip;
+  const double gap = scenario.wall.normal.normalized().dot(tip - scenario.wall.point_m);
+  if (gap >= -kRounding_m) return;
+  throw std::runtime_error("reference.start_rad: the tool point starts " + Rounded(-1e3 * gap, 3) +
+                           " mm behind the wall of wall.point_m and wall.normal; allowed: in front of it");
+}
+
 /// A press along a direction in which the arm can hardly move: nearly stretched, or folded.
 template <int N>
 void RefusePressNearSingularity(const PoseOf<N>& pose_of, const Scenario& scenario,

@@ -47,6 +47,12 @@ inline strategy::SourceSetting SourceFrom(ForceConfig::Source source) {
   return strategy::SourceSetting::kNone;
 }
 
+/// What a force sensor that touches nothing may read, N.
+inline double ForceNoise(const SensorConfig& sensors) {
+  constexpr double kFrame_N = 0.02;  // of the wrench frame's resolution
+  return kFrame_N + sensors.force_noise_N + sensors.force_quantum_N;
+}
+
 template <int N, int P>
 protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
   protect::LimitValues<N> v;
@@ -74,6 +80,7 @@ Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
   s.source = internal::SourceFrom(scenario.force.source);
   s.normal = scenario.wall.normal;
   s.reach_m = scenario.arm.reach_m();
+  s.force_noise_N = internal::ForceNoise(scenario.sensors);
   s.wall_present = scenario.wall.present;
   s.compensate_deflection = scenario.control.nodal_compensation;
   s.velocity_filter_hz = scenario.sensors.velocity_filter_hz;
@@ -93,6 +100,7 @@ reference::PlannedPath<N> PathFrom(const Scenario& scenario, const model::ArmMod
     return kin;
   };
   reference::PlannedPath<N> path = reference::PathPlanner<N>(pose_of, scenario).Plan();
+  reference::RefuseStartBehindWall<N>(pose_of, scenario, path.View());
   reference::RefusePressNearSingularity<N>(pose_of, scenario, path.View());
   return path;
 }

@@ -1,4 +1,5 @@
 // Contact on the whole loop in virtual time: what the wall feels, before, during and after the press.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -122,6 +123,44 @@ TEST(WallBeforeItsTime, IsNoZeroOfTheObserver) {
   }
   EXPECT_NEAR(known_N, 8.0, 0.8);
   EXPECT_NEAR(sum_N, 8.0, 1.0);
+}
+
+bool Noted(const SilRig& rig, Reason reason, double least) {
+  for (int i = 0; i < rig.snapshot().num_events; ++i) {
+    const telemetry::Event& event = rig.snapshot().events[static_cast<std::size_t>(i)];
+    if (event.code == static_cast<int>(reason) && event.value >= least) return true;
+  }
+  return false;
+}
+
+TEST(StartAtAWall, AZeroThatIsMoreThanNoiseIsSaid) {
+  for (const double offset_m : {-0.001, 0.005}) {
+    Scenario scenario = PressKnown();
+    scenario.wall.offset_m = offset_m;  // 5 mm: the arm starts 1 mm inside
+    SilRig rig(scenario);
+    while (rig.mode() != Mode::kActive && rig.cycle_number() < 1000) rig.Run();
+    EXPECT_EQ(Noted(rig, Reason::kForceZero, 5.0), offset_m > 0.0);
+    EXPECT_EQ(Noted(rig, Reason::kForceZero, 0.0), offset_m > 0.0);
+  }
+}
+
+/// The line with which a scenario is refused.
+std::string Refusal(const Scenario& scenario) {
+  try {
+    const SilRig rig(scenario);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(StartAtAWall, BehindTheBelievedOneIsRefused) {
+  Scenario scenario = PressKnown();
+  scenario.wall.normal = {0.0, 0.0, -1.0};
+  EXPECT_THAT(Refusal(scenario), ::testing::HasSubstr("reference.start_rad: the tool point starts 4.000 mm"));
+  scenario = PressKnown();
+  scenario.wall.point_m[2] += 0.003999;
+  EXPECT_EQ(Refusal(scenario), "accepted");
 }
 
 }  // namespace

@@ -197,6 +197,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kStaleWrench, 43},
                                             {Reason::kWrenchRange, 45},
                                             {Reason::kStretched, 46},
+                                            {Reason::kForceZero, 8},
                                             {Reason::kStretchHeld, 9},
                                             {Reason::kStretch, 101},
                                             {Reason::kTorque, 96},
@@ -211,7 +212,7 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  9,  32, 33, 34, 35, 36, 37,
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  32, 33, 34, 35,  36, 37,
                             38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {

@@ -35,6 +35,8 @@ class NormalForce {
   }
   /// The sensor's force on the arm, all axes; as read while there is no zero. N.
   Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
+  /// By how much the zero differs from what a sensor that touches nothing reads, N.
+  double ZeroOffset() const noexcept { return zero_.Norm(); }
   bool settled() const noexcept { return zero_.complete(); }
 
   /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the

@@ -17,6 +17,7 @@ enum class Reason : std::int32_t {
   kPhaseBudget = 5,
   kStall = 6,
   kCollision = 7,
+  kForceZero = 8,
   kStretchHeld = 9,
   // trips
   kJointPosition = 32,
@@ -67,6 +68,9 @@ constexpr const char* Text(int code) noexcept {
       return "cycles were missed, value is how many";
     case Reason::kCollision:
       return "collision: the observed torque of a joint jumped although nothing was to be touched, N·m";
+    case Reason::kForceZero:
+      return "the force sensor's zero differs from no force by more than its noise: a bias, or the arm "
+             "starts in a wall, N";
     case Reason::kStretchHeld:
       return "the tip is held: nearly stretched or folded along the wall's normal, joint motion per tip "
              "motion in rad/m";
