@@ -127,8 +127,9 @@ struct ControlConfig {
 
 /// [limits] the last gate before the bus.
 struct LimitConfig {
-  double torque_scale = 1.0;  // of the arm's torque limit
-  double torque_rate_Nmps = 20000.0;
+  double torque_scale = 1.0;         // of the arm's torque limit
+  double torque_rate_scale = 500.0;  // 1/s, of each joint's torque limit
+  double torque_rate_Nmps = 0.0;     // > 0: the same for every joint instead
   double position_margin_rad = 0.05;
   double speed_scale = 1.0;  // of the arm's speed limit
   double contact_force_N = 60.0;

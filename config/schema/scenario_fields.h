@@ -154,7 +154,10 @@ void Fields(V& v, ControlConfig& c) {
 template <typename V>
 void Fields(V& v, LimitConfig& c) {
   v.Number("torque_scale", c.torque_scale, {"1", 0.01, 1}, "of the arm's torque limit");
-  v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 1, 1e7}, "largest change of a commanded torque");
+  v.Number("torque_rate_scale", c.torque_rate_scale, {"1/s", 0.1, 1e5},
+           "largest change of a commanded torque, of the joint's torque limit");
+  v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 0, 1e7},
+           "the same for every joint instead; 0: torque_rate_scale");
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
            "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");

@@ -47,6 +47,14 @@ inline strategy::SourceSetting SourceFrom(ForceConfig::Source source) {
   return strategy::SourceSetting::kNone;
 }
 
+/// How far a commanded torque may move in a cycle, N·m: in proportion to what the joint can do, so that an arm of any
+/// size takes over its weight from the brakes within the same few cycles.
+template <int N>
+model::Vec<N> TorqueStep(const LimitConfig& config, const model::Vec<N>& torque_limit, double T_s) {
+  if (config.torque_rate_Nmps > 0.0) return model::Vec<N>::Constant(config.torque_rate_Nmps * T_s);
+  return config.torque_rate_scale * T_s * torque_limit;
+}
+
 /// What a force sensor that touches nothing may read, N.
 inline double ForceNoise(const SensorConfig& sensors) {
   constexpr double kFrame_N = 0.02;  // of the wrench frame's resolution
@@ -57,7 +65,7 @@ template <int N, int P>
 protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
   protect::LimitValues<N> v;
   v.torque = scenario.limits.torque_scale * arm.torque_limit;
-  v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;
+  v.torque_step = TorqueStep<N>(scenario.limits, arm.torque_limit, 1.0 / scenario.timing.rate_hz);
   v.position_min = arm.position_min.array() + scenario.limits.position_margin_rad / 2.0;
   v.position_max = arm.position_max.array() - scenario.limits.position_margin_rad / 2.0;
   v.speed = scenario.limits.speed_scale * arm.speed_limit;

@@ -103,5 +103,51 @@ TEST(StretchedArm, ThatTouchesAWallWhereItCannotPressStopsWithAReasonOfItsOwn) {
   EXPECT_LT(fastest, 2.0) << "half of the speed limit";
 }
 
+/// An industrial arm's two big axes, as far as the bus can carry their torques.
+Scenario HeavyArm() {
+  Scenario scenario = LoadScenario("joints2");
+  scenario.duration_s = 1.0;
+  ArmDescription& arm = scenario.arm;
+  arm.dh = {{1.5707963267948966, 0.0, 0.0}, {0.0, 1.2, 0.0}};
+  arm.tool_offset_m = {1.0, 0.0, 0.0};
+  arm.rotor_inertia_kgm2 = {40.0, 30.0};
+  arm.joint_stiffness_Nmprad = {2e6, 1e6};
+  arm.coulomb_Nm.clear();
+  arm.torque_limit_Nm = {2000.0, 1000.0};
+  arm.speed_limit_radps = {2.0, 2.0};
+  arm.bodies[0] = {75.0, {0.6, 0.0, 0.0}, Eigen::Vector3d(0.25, 9.0, 9.0).asDiagonal()};
+  arm.bodies[1] = {50.0, {0.5, 0.0, 0.0}, Eigen::Vector3d(0.25, 4.25, 4.25).asDiagonal()};
+  arm.sections.clear();
+  scenario.plant.flexible_links = false;
+  scenario.reference.start_rad = {0.0, 0.0};
+  scenario.reference.legs.resize(1);
+  scenario.reference.legs[0] = ReferenceLeg{};
+  scenario.reference.legs[0].duration_s = 60.0;
+  scenario.control.K_d = {4000.0, 2500.0};
+  scenario.control.Lambda = {10.0, 10.0};
+  return scenario;
+}
+
+/// Largest way of a joint from its start in the first half second, rad.
+double Sag(const Scenario& scenario) {
+  SilRig rig(scenario);
+  double sag = 0.0;
+  for (int k = 0; k < 650; ++k) {
+    rig.Run();
+    for (std::size_t i = 0; i < scenario.reference.start_rad.size(); ++i)
+      sag = std::max(sag, std::abs(rig.truth().motor_angle[i] - scenario.reference.start_rad[i]));
+  }
+  EXPECT_EQ(rig.mode(), Mode::kActive);
+  return sag;
+}
+
+TEST(HeavyArm, DoesNotSagWhenItsDrivesAreEnabled) {
+  const double relative = Sag(HeavyArm());
+  Scenario absolute = HeavyArm();
+  absolute.limits.torque_rate_Nmps = 20000.0;  // what holds an arm of 40 N·m
+  EXPECT_LT(relative, 1e-3);
+  EXPECT_GT(Sag(absolute), 5.0 * relative) << "the key still does what it says";
+}
+
 }  // namespace
 }  // namespace reed

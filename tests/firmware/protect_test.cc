@@ -21,7 +21,7 @@ constexpr int kHold = 2, kStop = 10;
 LimitValues<2> Values() {
   LimitValues<2> v;
   v.torque << 40.0, 8.0;
-  v.torque_step = 5.0;
+  v.torque_step.setConstant(5.0);
   v.position_min << -1.0, -2.0;
   v.position_max << 1.5, 2.5;
   v.speed << 3.0, 4.0;
