@@ -149,5 +149,34 @@ TEST(HeavyArm, DoesNotSagWhenItsDrivesAreEnabled) {
   EXPECT_GT(Sag(absolute), 5.0 * relative) << "the key still does what it says";
 }
 
+TEST(RoughArm, LearnsTheFrictionThatItDeclares) {
+  Scenario scenario = LoadScenario("press_no_sensor");
+  scenario.arm.coulomb_Nm = {4.0, 4.0, 2.5, 1.2, 0.8};  // a tenth of the torque limits
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(3.0));
+  double square_sum = 0.0;
+  for (int k = 0; k < 990; ++k) {
+    rig.Run();
+    square_sum += std::pow(rig.truth().normal_force - rig.snapshot().control.f_d, 2);
+  }
+  EXPECT_LT(std::sqrt(square_sum / 990), 0.3 * 8.0)
+      << "its friction at rest stays a part of what the observer takes for force";
+}
+
+TEST(RoughArm, FollowsAFreePathAsASmoothOneWhereItsFrictionIsKnown) {
+  Scenario scenario = LoadScenario("free_motion");
+  scenario.arm.coulomb_Nm = {4.0, 4.0, 2.5, 1.2, 0.8};
+  scenario.control.coulomb_known = 1.0;
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.0));
+  double square_sum = 0.0;
+  for (int k = 0; k < 990; ++k) {
+    rig.Run();
+    for (std::size_t i = 0; i < 3; ++i)
+      square_sum += std::pow(rig.truth().tip[i] - rig.snapshot().control.tip_plan[i], 2);
+  }
+  EXPECT_LT(std::sqrt(square_sum / 990), 0.2e-3);
+}
+
 }  // namespace
 }  // namespace reed
