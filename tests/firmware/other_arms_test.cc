@@ -178,5 +178,22 @@ TEST(RoughArm, FollowsAFreePathAsASmoothOneWhereItsFrictionIsKnown) {
   EXPECT_LT(std::sqrt(square_sum / 990), 0.2e-3);
 }
 
+TEST(CoarseEncoder, ThatIsStillAcceptedSeeksTheWall) {
+  Scenario scenario = LoadScenario("press_known", LoadOptions{"", {"sensors.encoder_bits=15"}});
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.9));
+  EXPECT_NEAR(rig.truth().normal_force, 8.0, 1.0);
+}
+
+TEST(CoarseEncoder, ThatShakesTheTorqueIsRefusedWithTheFigure) {
+  try {
+    LoadScenario("press_known", LoadOptions{"", {"sensors.encoder_bits=12"}});
+    FAIL() << "accepted";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("sensors.encoder_bits"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("joint 1"));
+  }
+}
+
 }  // namespace
 }  // namespace reed

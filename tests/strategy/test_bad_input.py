@@ -35,6 +35,9 @@ REFUSED = {
     "a contact limit that a biased sensor cannot reach": (
         "press_known", ["sensors.force_bias_N=[0, -90, 0]", "sensors.force_range_N=140"],
         ["limits.contact_force_N", "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|", "60", "50 N"]),
+    "an encoder too coarse for the gains": (
+        "press_known", ["sensors.encoder_bits=12"],
+        ["sensors.encoder_bits", "joint 1", "rule K_d times the velocity of one mark <= 0.1 torque_limit", "4 N·m"]),
     "a force without a wall": ("press_known", ["wall.present=false"], ["wall.present", "a desired force needs a wall"]),
     "auto without a force sensor": ("press_sensor_loss", ["sensors.wrench=false"], ["force.source", "auto", "need a force sensor"]),
     "a known force without a force sensor": ("press_known", ["sensors.wrench=false"], ["force.source", "known", "need a force sensor"]),
