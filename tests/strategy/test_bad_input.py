@@ -48,6 +48,7 @@ REFUSED_PATHS = {
     "beyond a joint limit": (["reference.legs.0.kind=joint", "reference.legs.0.duration_s=2", "reference.legs.0.to_rad=[0, 1.88, -1.7, -2.4, 0]"], ["joint 2", "beyond its limit"]),
     "beyond a speed limit": (["reference.legs.1.frequency_hz=20"], ["too fast", "rad/s"]),
     "a start behind the wall": (["wall.normal=[0, 0, -1]"], ["reference.start_rad", "behind the wall", "in front of it"]),
+    "a leg shorter than the knots": (["reference.legs.0.duration_s=0.009"], ["reference.legs[0].duration_s", "0.05"]),
     "out of reach": (["reference.legs.0.by_m=[0.9, 0, 0]"], ["leaves the arm's reach", "tool point"]),
 }
 
