@@ -60,7 +60,8 @@ struct WallConfig {
   double friction_speed_mps = 2e-3;  // speed at which regularised friction reaches its full value
 };
 
-/// [disturbance] an external force on the tool point that nobody measures.
+/// [disturbance] an external force on the tool point. It acts in front of the wrist sensor, which reads it together
+/// with the wall's; no model and no setting of the controller holds it.
 struct DisturbanceConfig {
   Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // base frame
   Eigen::Vector3d amplitude_N = Eigen::Vector3d::Zero();  // of each of the sinusoids

@@ -77,7 +77,7 @@ void Fields(V& v, WallConfig& c) {
 template <typename V>
 void Fields(V& v, DisturbanceConfig& c) {
   v.Vector("bias_N", c.bias_N, {"N", -500, 500},
-           "constant force on the tool point, base frame, nobody measures it");
+           "constant force on the tool point, base frame; acts in front of the wrist sensor, which reads it");
   v.Vector("amplitude_N", c.amplitude_N, {"N", -500, 500}, "of each sinusoid per axis");
   v.Numbers("frequencies_hz", c.frequencies_hz, {"Hz", 0, 200},
             "one sinusoid per entry, phases from the seed");
