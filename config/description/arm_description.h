@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,12 @@ struct ArmDescription {
   // that follows it.
   std::vector<BeamSection> sections;
 
+  /// Longest distance from base to tool point.
+  double reach_m() const {
+    double reach = tool_offset_m.norm();
+    for (const DhRow& row : dh) reach += std::hypot(row.a_m, row.d_m);
+    return reach;
+  }
   int dof() const { return static_cast<int>(dh.size()); }
   int num_parameters() const { return static_cast<int>(parameters.size()); }
 };

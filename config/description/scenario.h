@@ -60,7 +60,8 @@ struct WallConfig {
   double friction_speed_mps = 2e-3;  // speed at which regularised friction reaches its full value
 };
 
-/// [disturbance] an external force on the tool point that nobody measures.
+/// [disturbance] an external force on the tool point. It acts in front of the wrist sensor, which reads it together
+/// with the wall's; no model and no setting of the controller holds it.
 struct DisturbanceConfig {
   Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // base frame
   Eigen::Vector3d amplitude_N = Eigen::Vector3d::Zero();  // of each of the sinusoids
@@ -127,8 +128,9 @@ struct ControlConfig {
 
 /// [limits] the last gate before the bus.
 struct LimitConfig {
-  double torque_scale = 1.0;  // of the arm's torque limit
-  double torque_rate_Nmps = 20000.0;
+  double torque_scale = 1.0;         // of the arm's torque limit
+  double torque_rate_scale = 500.0;  // 1/s, of each joint's torque limit
+  double torque_rate_Nmps = 0.0;     // > 0: the same for every joint instead
   double position_margin_rad = 0.05;
   double speed_scale = 1.0;  // of the arm's speed limit
   double contact_force_N = 60.0;

@@ -70,10 +70,12 @@ class Rules {
 
   /// A reading that saturates below the limit would never exceed it.
   void ForceLimitIsMeasured() const {
-    if (s_.limits.contact_force_N >= s_.sensors.force_range_N)
+    const double bias = s_.sensors.force_bias_N.cwiseAbs().maxCoeff();
+    if (s_.limits.contact_force_N >= s_.sensors.force_range_N - bias)
       Fail("limits.contact_force_N",
-           "rule contact_force_N < sensors.force_range_N: " + ToText(s_.limits.contact_force_N) +
-               " is not below " + ToShortText(s_.sensors.force_range_N) + " N, where the reading saturates");
+           "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|: " +
+               ToText(s_.limits.contact_force_N) + " is not below " +
+               ToShortText(s_.sensors.force_range_N - bias) + " N, where the reading saturates");
   }
 
   void AgesAreGraded() const {
@@ -107,12 +109,27 @@ class Rules {
     }
   }
 
+  /// One mark of the encoder in one period reads as a speed, and K_d makes a torque of it. Beyond a share of
+  /// the limit that torque is what moves the arm, and slow motions such as the search for a wall get lost.
+  void SpeedIsResolved() const {
+    constexpr double kShare = 0.1, kTwoPi = 6.283185307179586;
+    const double passed = -std::expm1(-kTwoPi * s_.sensors.velocity_filter_hz / s_.timing.rate_hz);
+    const double step = passed * kTwoPi * std::ldexp(s_.timing.rate_hz, -s_.sensors.encoder_bits);
+    for (std::size_t i = 0; i < s_.control.K_d.size(); ++i) {
+      const double torque = s_.control.K_d[i] * step, bound = kShare * s_.arm.torque_limit_Nm[i];
+      if (torque > bound)
+        Fail("sensors.encoder_bits",
+             "joint " + std::to_string(i + 1) +
+                 ": rule K_d times the velocity of one mark <= 0.1 torque_limit: " + ToShortText(step) +
+                 " rad/s make " + ToShortText(torque) + " N·m, above " + ToShortText(bound) + " N·m");
+    }
+  }
+
   void WallIsMeaningful() const {
     const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
     if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
     if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
-    double reach = s_.arm.tool_offset_m.norm();
-    for (const DhRow& row : s_.arm.dh) reach += std::hypot(row.a_m, row.d_m);
+    const double reach = s_.arm.reach_m();
     const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
     if (s_.wall.present && distance > reach)
       Fail("wall.point_m",
@@ -180,6 +197,7 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.AgesAreGraded();
   rules.ForceLoopIsStable();
   rules.NoChatter();
+  rules.SpeedIsResolved();
   rules.WallIsMeaningful();
   rules.ForceIsMeasured();
   rules.BudgetsAddUp();

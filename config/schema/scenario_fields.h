@@ -77,7 +77,7 @@ void Fields(V& v, WallConfig& c) {
 template <typename V>
 void Fields(V& v, DisturbanceConfig& c) {
   v.Vector("bias_N", c.bias_N, {"N", -500, 500},
-           "constant force on the tool point, base frame, nobody measures it");
+           "constant force on the tool point, base frame; acts in front of the wrist sensor, which reads it");
   v.Vector("amplitude_N", c.amplitude_N, {"N", -500, 500}, "of each sinusoid per axis");
   v.Numbers("frequencies_hz", c.frequencies_hz, {"Hz", 0, 200},
             "one sinusoid per entry, phases from the seed");
@@ -154,11 +154,16 @@ void Fields(V& v, ControlConfig& c) {
 template <typename V>
 void Fields(V& v, LimitConfig& c) {
   v.Number("torque_scale", c.torque_scale, {"1", 0.01, 1}, "of the arm's torque limit");
-  v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 1, 1e7}, "largest change of a commanded torque");
+  v.Number("torque_rate_scale", c.torque_rate_scale, {"1/s", 0.1, 1e5},
+           "largest change of a commanded torque, of the joint's torque limit");
+  v.Number("torque_rate_Nmps", c.torque_rate_Nmps, {"N·m/s", 0, 1e7},
+           "the same for every joint instead; 0: torque_rate_scale");
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
            "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
-  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4}, "measured force magnitude that trips");
+  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4},
+           "contact force that trips: magnitude of the tared sensor, or the observed normal force of an arm "
+           "that presses without one");
   v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},
             "measurements up to this age are used as they are");
   v.Integer("stop_age_cycles", c.stop_age_cycles, {"1", 1, 1000},

@@ -160,6 +160,7 @@ class ArmBus {
     if (!waited_for || late < 0 || late >= measurement_.wrench_age) return;
     measurement_.force = Eigen::Map<const Eigen::Vector3d>(wrench.force_N.data());
     measurement_.moment = Eigen::Map<const Eigen::Vector3d>(wrench.moment_Nm.data());
+    measurement_.wrench_saturated = wrench.saturated;
     measurement_.wrench_age = late;
   }
 

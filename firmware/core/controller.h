@@ -39,11 +39,11 @@ class Controller {
   /// One period: estimate, decide, control, protect.
   const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
     events_.Clear();
-    verdict_ =
-        watch_.CheckState(measured, state, supervisor_, limits_, source_);  // estimate what it is worth
-    Decide(measured, state);                                                // decide
-    const strategy::Decision<N>& decision = Control(measured, state);       // control
-    command_.torque = Protect(decision, measured);                          // protect: the last word
+    verdict_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
+                                 ContactForce(measured));              // estimate what it is worth
+    Decide(measured, state);                                           // decide
+    const strategy::Decision<N>& decision = Control(measured, state);  // control
+    command_.torque = Protect(decision, measured);                     // protect: the last word
     command_.request = supervisor_.Request();
     NoteDecision(decision);
     was_active_ = was_active_ || active();
@@ -73,6 +73,10 @@ class Controller {
  private:
   bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
 
+  double ContactForce(const Measurement<N>& measured) const noexcept {
+    return strategy_.ContactForce(measured, !limits_.TooOld(measured.wrench_age));
+  }
+
   void Decide(const Measurement<N>& measured, const CycleState& state) noexcept {
     mode::Observation seen;
     seen.all_fresh = state.all_answered && measured.OldestAge() == 0;
@@ -88,6 +92,7 @@ class Controller {
     const mode::Event event = supervisor_.Step(seen);
     if (event != mode::Event::kNone) Note(protect::Reason::kModeChange, -1, static_cast<double>(event));
     if (seen.trip && event == mode::Event::kTrip) NoteTrip();
+    if (event == mode::Event::kStart) NoteForceZero(measured);
   }
 
   const strategy::Decision<N>& Control(const Measurement<N>& measured, const CycleState& state) noexcept {
@@ -102,15 +107,19 @@ class Controller {
   model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
     if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
     const bool sound = verdict_.trip == protect::Reason::kNone;
-    const model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
-    if (sound &&
-        verdict_.trip != protect::Reason::kNone) {  // found by the gate: the law's torque is not finite
+    model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
+    if (sound && active() && decision.force.lost) {
+      verdict_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), verdict_.limits};
+      tau = limits_.Release();
+    }
+    if (sound && verdict_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
       mode::Observation seen;
       seen.trip = true;
       Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)));
       NoteTrip();
     }
     if (decision.force.speed_limited) verdict_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
+    if (decision.force.held) verdict_.limits |= protect::LimitBit(protect::Reason::kStretch);
     return tau;
   }
 
@@ -121,7 +130,15 @@ class Controller {
     }
     if (decision.collision.joint >= 0)
       Note(protect::Reason::kCollision, decision.collision.joint, decision.collision.value);
+    if (decision.force.held_now) Note(protect::Reason::kStretchHeld, -1, decision.normal.D.norm());
     if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f);
+  }
+
+  /// A sensor that touches nothing reads nothing but noise; else it has a bias, or it does touch something.
+  void NoteForceZero(const Measurement<N>& measured) noexcept {
+    const double offset = strategy_.ForceZeroOffset();
+    if (measured.wrench_age != Measurement<N>::kNever && offset > settings_.force_noise_N)
+      Note(protect::Reason::kForceZero, -1, offset);
   }
 
   void NoteTrip() noexcept {

@@ -17,6 +17,7 @@ struct Measurement {
   std::array<int, static_cast<std::size_t>(N)> age{};  // cycles, 0: of this cycle
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N, environment on robot, base axes, at the tool point
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m
+  bool wrench_saturated = false;                     // an axis is at the end of the sensor's range
   int wrench_age = kNever;                           // cycles
   bool foreign_controller = false;                   // somebody else sends SYNC or COMMAND
   int unexpected_joint = -1;  // 0-based, of a state frame for a joint that the arm does not have

@@ -36,7 +36,8 @@ class Separated {
         T_(settings.period_s()),
         source_(settings.source),
         force_(settings.force_mode, settings.force, T_),
-        normal_force_(normal_, T_),
+        stretch_(settings.limits.speed, settings.reach_m),
+        normal_force_(normal_, wall_present_ ? settings.force_mode.threshold_N : kNoWall_N, T_),
         deflection_(arm_, normal_, settings.compensate_deflection && law_.deflection_allowed, T_),
         adaptive_(gains_),
         disturbance_(arm_, gains_.p_0, gains_.K_o, settings.velocity_filter_hz, T_),
@@ -54,9 +55,10 @@ class Separated {
     disturbance_.Update(measured, kin_, adaptive_.kappa_hat, gains_.friction_speed);
     d.plan = path_.At(t_s);
     d.tip_plan = PlannedTip(d.plan);
+    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
     d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, disturbance_.r()),
-                             force_.in_contact());
+                             force_.in_contact(), d.normal.J_n.dot(measured.theta_dot));
     ScaleBandwidth(d.source);
     d.force = active && d.source != ForceSource::kNone ? SeekForce(d, t_s) : ForceDemand{};
     d.desired = active
@@ -79,7 +81,7 @@ class Separated {
 
   /// Instead of Step(), after a cycle that came too late: what the last one decided.
   const Decision<N>& Repeat() noexcept {
-    decision_.force.latched_now = false;
+    decision_.force.latched_now = decision_.force.held_now = false;
     decision_.collision = {};
     disturbance_.NoteGap();
     return decision_;
@@ -97,7 +99,14 @@ class Separated {
     disturbance_.Reset(kin_, measured.theta_dot);
     collision_.Reset(disturbance_.r());
   }
+  double ForceZeroOffset() const noexcept { return normal_force_.ZeroOffset(); }  // N
   bool tared() const noexcept { return normal_force_.settled(); }
+
+  /// What the wall feels, N, for the limit: the tared sensor; without it the observer, while the arm presses.
+  double ContactForce(const Measurement<N>& measured, bool sensed) const noexcept {
+    if (sensed) return normal_force_.Felt(measured.force).norm();
+    return decision_.source == ForceSource::kObserver ? std::abs(decision_.f) : 0.0;
+  }
 
   const AdaptiveState<N, P>& adaptive() const noexcept { return adaptive_; }
   const model::Vec<N>& observed() const noexcept { return disturbance_.r(); }
@@ -123,7 +132,10 @@ class Separated {
   }
 
   ForceDemand SeekForce(const Decision<N>& d, double t_s) noexcept {
-    return force_.Step(t_s, d.f, normal_.dot(kin_.tip), bandwidth_scale_, d.source == ForceSource::kKnown);
+    NormalMotion motion{normal_.dot(kin_.tip), d.normal.J_n.dot(d.aux.e), {}};  // e: of the last cycle
+    if (wall_present_ && law_.force_loop) motion.allowed = stretch_.Step(d.normal.D, force_.state().z);
+    const bool sensed = d.source == ForceSource::kKnown || normal_force_.met_wall();
+    return force_.Step(t_s, d.f, motion, bandwidth_scale_, sensed);
   }
 
   Eigen::Vector3d PlannedTip(const control::Reference<N>& plan) noexcept {
@@ -134,7 +146,6 @@ class Separated {
   /// v, v̇, s: where the law shall take the arm from here (22)-(25), (30).
   void Aim(Decision<N>& d, const Measurement<N>& measured) noexcept {
     d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
-    if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     if (d.force.active && law_.force_loop)
       control::ReplaceNormal<N>(d.normal, d.force.z, d.force.z_dot, d.aux);
     d.s = control::SlidingError<N>(d.aux.v, measured.theta_dot);
@@ -159,6 +170,7 @@ class Separated {
 
   static constexpr double kObserverScale = 0.3;  // of the force loop while r, 1/K_o late, is all it has
   static constexpr double kScaleTime_s = 0.1;
+  static constexpr double kNoWall_N = 1e12;
   static constexpr double kCollisionShare = 0.15;  // of the torque limit
 
   const model::ArmModel<N, P>& arm_;
@@ -171,6 +183,7 @@ class Separated {
   double T_;
   SourceSelector source_;
   ForceMode force_;
+  StretchGuard<N> stretch_;
   NormalForce normal_force_;
   DeflectionCompensation<N, P> deflection_;
   AdaptiveState<N, P> adaptive_;

@@ -21,6 +21,8 @@ struct Settings {
   reference::ForceProfile force;
   strategy::SourceSetting source = strategy::SourceSetting::kNone;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward, wall to robot, base frame
+  double reach_m = 1.0;                               // of the arm, base to tool point
+  double force_noise_N = 0.1;                         // of the force sensor, resolution included
   bool wall_present = false;                          // the arm is to expect a wall
   bool compensate_deflection = false;                 // θ_d after the static deflection (22)
   double velocity_filter_hz = 120.0;                  // of the drives

@@ -38,11 +38,15 @@ void PaperAdaptation(const model::ArmModel<N, P>& arm, Gains<N, P>& g) {
 template <int N, int P>
 void Friction(const ArmDescription& description, const ControlConfig& c, const model::ArmModel<N, P>& arm,
               Gains<N, P>& g) {
-  constexpr double kBox = 0.05;  // of the torque limit
+  constexpr double kBox = 0.05;      // of the torque limit, where the arm declares less
+  constexpr double kDeclared = 1.5;  // of the declared friction, which wears and cools
   g.kappa_max = kBox * arm.torque_limit;
   g.kappa_0.setZero();
-  if (!description.coulomb_Nm.empty())
-    g.kappa_0 = c.coulomb_known * Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
+  if (!description.coulomb_Nm.empty()) {
+    const model::Vec<N> declared = Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
+    g.kappa_0 = c.coulomb_known * declared;
+    g.kappa_max = g.kappa_max.cwiseMax(kDeclared * declared);
+  }
   g.Gamma_c_known = c.Gamma_friction * g.K_d;  // joints that are damped more learn larger torques
   g.Gamma_c_unknown =
       c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : g.Gamma_c_known;  // two integrators would fight

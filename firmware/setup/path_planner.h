@@ -20,6 +20,7 @@ class PathPlanner {
       : pose_of_(std::move(pose_of)), scenario_(scenario) {}
 
   PlannedPath<N> Plan() {
+    CheckLegs();
     std::vector<model::Vec<N>> q = Sample();
     std::vector<typename JointPath<N>::Knot> knots = Differentiate(q);
     CheckLimits(knots);
@@ -29,6 +30,8 @@ class PathPlanner {
  private:
   static constexpr double kSpacing = 0.005;  // s; a 5 Hz sinusoid of 1 rad is met to 1e-9 rad
   static constexpr double kBeyond = 3.0 * kSpacing;
+  static constexpr double kRounding = 1e-9;             // s
+  static constexpr double kShortest = 10.0 * kSpacing;  // of a leg that moves, and of a period
   static constexpr double kTwoPi = 6.283185307179586;
 
   /// Angles at every knot, leg after leg.
@@ -42,19 +45,23 @@ class PathPlanner {
       // A leg that moves when the run ends is followed a little further: the last knots' derivatives need it.
       const double leg_end = leg_start + leg.duration_s;
       const double sampled_to =
-          leg_end + 1e-9 < scenario_.duration_s ? leg_end : scenario_.duration_s + kBeyond;
-      while (t + kSpacing <= sampled_to + 1e-9) {
+          leg_end + kRounding < scenario_.duration_s ? leg_end : scenario_.duration_s + kBeyond;
+      const bool ends = sampled_to == leg_end;
+      while (t + kSpacing <= sampled_to + kRounding) {
         t = kSpacing * static_cast<double>(out.size());
-        q = AtLegTime(leg, t - leg_start, q_start, kin, q);
+        q = AtLegTime(leg, t - leg_start, ends, q_start, kin, q);
         out.push_back(q);
       }
       leg_start += leg.duration_s;
+      // The next leg starts where this one ends, also between two knots.
+      if (ends && leg_start - t > kRounding) q = AtLegTime(leg, leg.duration_s, ends, q_start, kin, q);
     }
-    while (out.size() < 5) out.push_back(q);
+    while (out.size() < 5 || out.back() != q) out.push_back(q);  // the end of the last leg is a knot, too
     return out;
   }
 
-  model::Vec<N> AtLegTime(const ReferenceLeg& leg, double t, const model::Vec<N>& q_start,
+  /// ends: the leg ends before the run does.
+  model::Vec<N> AtLegTime(const ReferenceLeg& leg, double t, bool ends, const model::Vec<N>& q_start,
                           const model::Kinematics<N>& start, const model::Vec<N>& q_near) const {
     using Kind = ReferenceLeg::Kind;
     switch (leg.kind) {
@@ -66,22 +73,41 @@ class PathPlanner {
       }
       case Kind::kSine: {
         const model::Vec<N> amplitude = Eigen::Map<const model::Vec<N>>(leg.amplitude_rad.data());
-        return q_start + Swing(leg, t) * amplitude;
+        return q_start + Swing(leg, t, ends) * amplitude;
       }
       case Kind::kCartesian:
         return SolveInverseKinematics<N>(pose_of_, start.tip + MinimumJerk(t, leg.duration_s).s * leg.by_m,
                                          start.R_tip(), q_near);
       case Kind::kSlide:
-        return SolveInverseKinematics<N>(pose_of_, start.tip + Swing(leg, t) * leg.amplitude_m, start.R_tip(),
-                                         q_near);
+        return SolveInverseKinematics<N>(pose_of_, start.tip + Swing(leg, t, ends) * leg.amplitude_m,
+                                         start.R_tip(), q_near);
     }
     return q_start;
   }
 
-  /// Sinusoid that fades in over its first half period, so that it starts at rest.
-  static double Swing(const ReferenceLeg& leg, double t) {
+  /// Sinusoid that fades in over its first half period and, if it ends within the run, out over its last one:
+  /// it starts and ends at rest.
+  static double Swing(const ReferenceLeg& leg, double t, bool ends) {
     if (leg.frequency_hz <= 0.0) return 0.0;
-    return MinimumJerk(t, 0.5 / leg.frequency_hz).s * std::sin(kTwoPi * leg.frequency_hz * t);
+    const double half_s = 0.5 / leg.frequency_hz;
+    const double sine = MinimumJerk(t, half_s).s * std::sin(kTwoPi * leg.frequency_hz * t);
+    return ends ? sine * MinimumJerk(leg.duration_s - t, half_s).s : sine;
+  }
+
+  /// What is shorter than ten knots would be followed in part, or not at all.
+  void CheckLegs() const {
+    for (std::size_t i = 0; i < scenario_.reference.legs.size(); ++i) {
+      const ReferenceLeg& leg = scenario_.reference.legs[i];
+      if (leg.kind == ReferenceLeg::Kind::kHold) continue;
+      const std::string key = "reference.legs[" + std::to_string(i) + "].";
+      if (leg.duration_s < kShortest)
+        throw std::runtime_error(key + "duration_s: " + std::to_string(leg.duration_s) +
+                                 " s; allowed for a leg that moves: " + std::to_string(kShortest) +
+                                 " s and more");
+      if (leg.frequency_hz * kShortest > 1.0 + kRounding)
+        throw std::runtime_error(key + "frequency_hz: " + std::to_string(leg.frequency_hz) +
+                                 " Hz; allowed: up to " + std::to_string(1.0 / kShortest) + " Hz");
+    }
   }
 
   /// Five-point differences: the samples are exact to 1e-13 rad, so speeds are to 1e-10 and accelerations to

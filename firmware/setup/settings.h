@@ -10,6 +10,7 @@
 #include "reed/core/settings.h"
 #include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/setup/gains.h"
+#include "reed/firmware/setup/contact_checks.h"
 #include "reed/firmware/setup/path_planner.h"
 
 namespace reed {
@@ -46,11 +47,25 @@ inline strategy::SourceSetting SourceFrom(ForceConfig::Source source) {
   return strategy::SourceSetting::kNone;
 }
 
+/// How far a commanded torque may move in a cycle, N·m: in proportion to what the joint can do, so that an arm of any
+/// size takes over its weight from the brakes within the same few cycles.
+template <int N>
+model::Vec<N> TorqueStep(const LimitConfig& config, const model::Vec<N>& torque_limit, double T_s) {
+  if (config.torque_rate_Nmps > 0.0) return model::Vec<N>::Constant(config.torque_rate_Nmps * T_s);
+  return config.torque_rate_scale * T_s * torque_limit;
+}
+
+/// What a force sensor that touches nothing may read, N.
+inline double ForceNoise(const SensorConfig& sensors) {
+  constexpr double kFrame_N = 0.02;  // of the wrench frame's resolution
+  return kFrame_N + sensors.force_noise_N + sensors.force_quantum_N;
+}
+
 template <int N, int P>
 protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
   protect::LimitValues<N> v;
   v.torque = scenario.limits.torque_scale * arm.torque_limit;
-  v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;
+  v.torque_step = TorqueStep<N>(scenario.limits, arm.torque_limit, 1.0 / scenario.timing.rate_hz);
   v.position_min = arm.position_min.array() + scenario.limits.position_margin_rad / 2.0;
   v.position_max = arm.position_max.array() - scenario.limits.position_margin_rad / 2.0;
   v.speed = scenario.limits.speed_scale * arm.speed_limit;
@@ -72,6 +87,8 @@ Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
   s.force = {scenario.force.desired_N, scenario.force.start_s, scenario.force.ramp_s, scenario.force.end_s};
   s.source = internal::SourceFrom(scenario.force.source);
   s.normal = scenario.wall.normal;
+  s.reach_m = scenario.arm.reach_m();
+  s.force_noise_N = internal::ForceNoise(scenario.sensors);
   s.wall_present = scenario.wall.present;
   s.compensate_deflection = scenario.control.nodal_compensation;
   s.velocity_filter_hz = scenario.sensors.velocity_filter_hz;
@@ -90,7 +107,10 @@ reference::PlannedPath<N> PathFrom(const Scenario& scenario, const model::ArmMod
     model::ForwardKinematics<N, P>(arm, q, model::Vec<N>::Zero(), kin);
     return kin;
   };
-  return reference::PathPlanner<N>(pose_of, scenario).Plan();
+  reference::PlannedPath<N> path = reference::PathPlanner<N>(pose_of, scenario).Plan();
+  reference::RefuseStartBehindWall<N>(pose_of, scenario, path.View());
+  reference::RefusePressNearSingularity<N>(pose_of, scenario, path.View());
+  return path;
 }
 
 }  // namespace reed

@@ -97,6 +97,49 @@ TEST(PathPlanner, TheKnotsHoldTheRunEvenWhenTheLegsAreShorterThanOneSpacing) {
   EXPECT_EQ(path.At(0.01).theta_d, model::Vec<2>(0.4, 1.1));
 }
 
+TEST(PathPlanner, ALegThatMovesIsRefusedWhereTheKnotsWouldMissIt) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 9e-3);
+  move.to_rad = {0.41, 1.1};
+  for (const char* word : {"reference.legs[0].duration_s", "0.009", "0.05"})
+    EXPECT_NE(bench.Refusal({0.4, 1.1}, {move}).find(word), std::string::npos) << word;
+  ReferenceLeg sine = Leg(ReferenceLeg::Kind::kSine, 1.0);
+  sine.amplitude_rad = {1e-3, 0.0};
+  sine.frequency_hz = 21.0;
+  EXPECT_NE(bench.Refusal({0.4, 1.1}, {sine}).find("reference.legs[0].frequency_hz"), std::string::npos);
+  sine.frequency_hz = 20.0;
+  EXPECT_EQ(bench.Refusal({0.4, 1.1}, {sine}), "accepted");
+}
+
+TEST(PathPlanner, LegsThatEndBetweenTwoKnotsReachTheirEnds) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg there = Leg(ReferenceLeg::Kind::kJoint, 0.0533), back = there;
+  there.to_rad = {0.42, 1.1};
+  back.to_rad = {0.4, 1.08};
+  const ReferenceLeg hold = Leg(ReferenceLeg::Kind::kHold, 0.0411);
+  const JointPath<2> path = bench.Plan({0.4, 1.1}, {there, hold, back, hold});
+  EXPECT_LT((path.At(0.075).theta_d - model::Vec<2>(0.42, 1.1)).norm(), 1e-12);
+  EXPECT_LT((path.At(0.18).theta_d - model::Vec<2>(0.4, 1.08)).norm(), 1e-12);
+}
+
+TEST(PathPlanner, ASineOrASlideThatEndsWithinTheRunEndsAtRest) {
+  Bench<5> bench(test::ArmA5());
+  ReferenceLeg sine = Leg(ReferenceLeg::Kind::kSine, 0.7);
+  sine.amplitude_rad.assign(5, 0.1);
+  sine.frequency_hz = 1.0;
+  ReferenceLeg slide = Leg(ReferenceLeg::Kind::kSlide, 0.45);
+  slide.amplitude_m = Eigen::Vector3d(0.02, 0.02, 0.0);
+  slide.frequency_hz = 1.0;
+  const JointPath<5> path = bench.Plan(PoseA5(), {sine, slide, Leg(ReferenceLeg::Kind::kHold, 0.2)});
+  EXPECT_LT((path.At(0.7).theta_d - PoseA5()).norm(), 1e-9);
+  control::Reference<5> before = path.At(0.0);
+  for (int k = 1; k < 1300; ++k) {
+    const control::Reference<5> at = path.At(1e-3 * k);
+    EXPECT_LT((at.theta_d_dot - before.theta_d_dot).cwiseAbs().maxCoeff(), 0.03) << k;
+    before = at;
+  }
+}
+
 TEST(PathPlanner, ALegThatLeavesTheJointRangeIsRefusedByJointTimeAndRange) {
   Bench<2> bench(test::ArmP2());
   ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 1.0);

@@ -21,7 +21,7 @@ constexpr int kHold = 2, kStop = 10;
 LimitValues<2> Values() {
   LimitValues<2> v;
   v.torque << 40.0, 8.0;
-  v.torque_step = 5.0;
+  v.torque_step.setConstant(5.0);
   v.position_min << -1.0, -2.0;
   v.position_max << 1.5, 2.5;
   v.speed << 3.0, 4.0;
@@ -195,6 +195,11 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kCollision, 7},
                                             {Reason::kPhaseBudgetInRow, 44},
                                             {Reason::kStaleWrench, 43},
+                                            {Reason::kWrenchRange, 45},
+                                            {Reason::kStretched, 46},
+                                            {Reason::kForceZero, 8},
+                                            {Reason::kStretchHeld, 9},
+                                            {Reason::kStretch, 101},
                                             {Reason::kTorque, 96},
                                             {Reason::kTorqueRate, 97},
                                             {Reason::kNormalSpeed, 98},
@@ -207,8 +212,8 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  32, 33, 34, 35, 36,
-                            37, 38, 39, 40, 41, 42, 43, 44, 96, 97, 98, 99, 100};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  32, 33, 34, 35,  36, 37,
+                            38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {
@@ -226,6 +231,7 @@ TEST(Reason, LimitsHaveOneBitEachFromBitZero) {
   EXPECT_EQ(LimitBit(Reason::kNormalSpeed), 4);
   EXPECT_EQ(LimitBit(Reason::kHeldMeasurement), 8);
   EXPECT_EQ(LimitBit(Reason::kRampDown), 16);
+  EXPECT_EQ(LimitBit(Reason::kStretch), 32);
 }
 
 }  // namespace

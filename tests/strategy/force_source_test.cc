@@ -8,8 +8,9 @@
 namespace reed::strategy {
 namespace {
 
-using Source = ForceConfig::Source;
+using Source = SourceSetting;
 constexpr double kT = 1e-3;
+constexpr double kContact_N = 1.5;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 TEST(SourceSelector, LosesTheSensorInTheThirdCycleWithoutAFrameAndNotBefore) {
@@ -44,7 +45,7 @@ TEST(SourceSelector, DoesWhatTheScenarioSaysInEveryOtherMode) {
 }
 
 TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewton) {
-  NormalForce force(kUp, kT);
+  NormalForce force(kUp, kContact_N, kT);
   for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d(0.0, 0.0, 0.4), true);
   const Eigen::Vector3d read(0.0, 0.0, 8.4), observed(0.0, 0.0, 11.0);
   double before = 0.0;
@@ -59,14 +60,14 @@ TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewt
 }
 
 TEST(NormalForce, AConstantAndASaturatedReadingAreReadings) {
-  NormalForce force(kUp, kT);
+  NormalForce force(kUp, kContact_N, kT);
   for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d::Zero(), true);
   for (int k = 0; k < 500; ++k)
     EXPECT_EQ(force.Step(ForceSource::kKnown, 200.0 * kUp, Eigen::Vector3d::Zero(), true), 200.0);
 }
 
 TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
-  NormalForce force(kUp, kT);
+  NormalForce force(kUp, kContact_N, kT);
   for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
   for (int k = 1; k < SourceSelector::kReturnCycles; ++k) {
     EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12);
@@ -77,7 +78,7 @@ TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
 
 TEST(NormalForce, KeepsItsZeroWhenTheArmMeetsTheWallWhileFramesReturn) {
   for (const int contact_at : {2, 40, 70, 99}) {
-    NormalForce force(kUp, kT);
+    NormalForce force(kUp, kContact_N, kT);
     for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
     for (int k = 1; k < SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k, k < contact_at);
     EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12)
@@ -86,12 +87,26 @@ TEST(NormalForce, KeepsItsZeroWhenTheArmMeetsTheWallWhileFramesReturn) {
 }
 
 TEST(NormalForce, TheObserversTareFollowsTheFreeArmButNotTheRiseOfAContact) {
-  NormalForce force(kUp, kT);
+  NormalForce force(kUp, kContact_N, kT);
   for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false);
   EXPECT_NEAR(force.Step(ForceSource::kObserver, kUp, -4.0 * kUp, false), 0.0, 1e-3);
   double f = 0.0;
   for (int k = 0; k < 100; ++k) f = force.Step(ForceSource::kObserver, kUp, (-4.0 + 0.04 * k) * kUp, false);
   EXPECT_GT(f, 3.5);
+}
+
+TEST(NormalForce, AWallThatIsMetBeforeItsTimeIsNoNewZeroOfTheObserver) {
+  for (const double x_dot : {-5e-3, 0.0}) {  // a jump while the tip does not approach is a change of weight
+    NormalForce force(kUp, kContact_N, kT);
+    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, -5e-3);
+    for (int k = 0; k < 100; ++k)
+      force.Step(ForceSource::kUnknown, kUp, (-4.0 + 0.08 * k) * kUp, false, x_dot);
+    double f = 0.0;
+    for (int k = 0; k < 3000; ++k) f = force.Step(ForceSource::kUnknown, kUp, 4.0 * kUp, false, 0.0);
+    EXPECT_NEAR(f, x_dot < 0.0 ? 8.0 : 0.0, 1.0) << x_dot;
+    for (int k = 0; k < 1000; ++k) f = force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, 0.0);
+    EXPECT_NEAR(f, 0.0, 1e-3) << "followed again when the wall is left";
+  }
 }
 
 }  // namespace

@@ -32,6 +32,12 @@ REFUSED = {
     "a start beyond a joint limit": (
         "press_known", ["reference.start_rad=[0, 1.9, -1.764384, -2.43457, 0]"], ["reference.start_rad", "joint 2", "beyond its limit"]),
     "a wall that the arm cannot reach": ("press_known", ["wall.point_m=[0.4, 0, 2.5]"], ["wall.point_m", "2.5 m", "reaches 1 m"]),
+    "a contact limit that a biased sensor cannot reach": (
+        "press_known", ["sensors.force_bias_N=[0, -90, 0]", "sensors.force_range_N=140"],
+        ["limits.contact_force_N", "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|", "60", "50 N"]),
+    "an encoder too coarse for the gains": (
+        "press_known", ["sensors.encoder_bits=12"],
+        ["sensors.encoder_bits", "joint 1", "rule K_d times the velocity of one mark <= 0.1 torque_limit", "4 N·m"]),
     "a force without a wall": ("press_known", ["wall.present=false"], ["wall.present", "a desired force needs a wall"]),
     "auto without a force sensor": ("press_sensor_loss", ["sensors.wrench=false"], ["force.source", "auto", "need a force sensor"]),
     "a known force without a force sensor": ("press_known", ["sensors.wrench=false"], ["force.source", "known", "need a force sensor"]),
@@ -41,6 +47,8 @@ REFUSED = {
 REFUSED_PATHS = {
     "beyond a joint limit": (["reference.legs.0.kind=joint", "reference.legs.0.duration_s=2", "reference.legs.0.to_rad=[0, 1.88, -1.7, -2.4, 0]"], ["joint 2", "beyond its limit"]),
     "beyond a speed limit": (["reference.legs.1.frequency_hz=20"], ["too fast", "rad/s"]),
+    "a start behind the wall": (["wall.normal=[0, 0, -1]"], ["reference.start_rad", "behind the wall", "in front of it"]),
+    "a leg shorter than the knots": (["reference.legs.0.duration_s=0.009"], ["reference.legs[0].duration_s", "0.05"]),
     "out of reach": (["reference.legs.0.by_m=[0.9, 0, 0]"], ["leaves the arm's reach", "tool point"]),
 }
 

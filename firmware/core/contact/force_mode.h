@@ -1,11 +1,14 @@
 // Force mode: seek the wall, latch on the first contact, track the desired force with gains that fit the
-// wall. The only place that knows when the normal direction belongs to the force. RT: safe.
+// wall. Before and after the time of the force it is touched with f_d = 0 while the path leads into it. The
+// only place that knows when the normal direction belongs to the force. RT: safe.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
 #include "reed/core/contact/force_loop.h"
+#include "reed/core/contact/normal_anchor.h"
+#include "reed/core/contact/stretch_guard.h"
 #include "reed/core/contact/wall_stiffness.h"
 #include "reed/core/reference/force_profile.h"
 
@@ -27,31 +30,50 @@ struct ForceDemand {
   bool active = false;       // the normal direction belongs to the force loop
   bool latched_now = false;  // contact was made in this cycle
   bool speed_limited = false;
-  double f_d = 0.0;  // N
-  double e_f = 0.0;  // N, 0 before contact
+  bool held = false;      // near a stretched arm (stretch_guard.h)
+  bool held_now = false;  // since this cycle
+  bool lost = false;      // the arm cannot press in this pose
+  double f_d = 0.0;       // N
+  double e_f = 0.0;       // N, 0 before contact
   double z = 0.0, z_dot = 0.0;
+};
+
+/// Of the geometry in this cycle.
+struct NormalMotion {
+  double x = 0.0;          // normal tip position by motor angles, m
+  double path_gap = -1.0;  // how far the path leads off the wall from there, m; < 0: into it
+  NormalSpeedRange allowed;
 };
 
 class ForceMode {
  public:
   ForceMode(const ForceModeConfig& config, const reference::ForceProfile& profile, double T) noexcept
-      : config_(config), profile_(profile), wall_(config.bandwidth_radps / config.gains.k_p, T), T_(T) {}
+      : config_(config),
+        profile_(profile),
+        wall_(config.bandwidth_radps / config.gains.k_p, T),
+        anchor_(T),
+        T_(T) {}
 
   void Reset() noexcept {
     state_ = {};
     contact_s_ = kNoContact;
     wall_.Reset();
+    anchor_.Reset();
+    held_ = false;
   }
   bool in_contact() const noexcept { return contact_s_ < kNoContact; }
-  bool Wanted(double t_s) const noexcept { return profile_.Wanted(t_s); }
+  /// A force is wanted now, or a wall is still touched.
+  bool Wanted(double t_s) const noexcept { return profile_.Wanted(t_s) || in_contact(); }
   const control::ForceState& state() const noexcept { return state_; }
   double wall_stiffness() const noexcept { return wall_.value(); }
 
-  /// f: normal force as known now, N. x: normal tip position by motor angles, m. pace: share of the
-  /// bandwidth, below 1 where f comes late. sensed: f is measured, not observed.
-  ForceDemand Step(double t_s, double f, double x, double pace, bool sensed = true) noexcept {
+  /// f: normal force as known now, N. pace: share of the bandwidth, below 1 where f comes late. sensed: f is
+  /// measured, not observed.
+  ForceDemand Step(double t_s, double f, const NormalMotion& motion, double pace,
+                   bool sensed = true) noexcept {
     ForceDemand demand;
-    if (!profile_.Wanted(t_s) && !(sensed && Early(t_s, f))) {
+    const bool pressing = profile_.Wanted(t_s);
+    if (!pressing && !Touches(f, motion.path_gap, sensed)) {
       Reset();
       return demand;
     }
@@ -60,20 +82,28 @@ class ForceMode {
       contact_s_ = t_s;
       demand.latched_now = true;
     }
+    const double into = std::min(config_.speed_limit_mps, motion.allowed.into);
+    const double off = std::min(config_.speed_limit_mps, motion.allowed.off);
     double wanted = 0.0;  // normal speed into the wall
     if (in_contact()) {
-      if (pace > kPromptPace) wall_.Step(f, x);  // a late f would tell a wrong stiffness
+      if (pace > kPromptPace) wall_.Step(f, motion.x);  // a late f would tell a wrong stiffness
       demand.f_d = profile_.At(t_s, contact_s_);
       demand.e_f = demand.f_d - f;
-      wanted = control::NormalSpeed(Gains(pace), demand.e_f, state_.e_f_integral);
+      wanted = pressing ? control::NormalSpeed(Gains(pace), demand.e_f, state_.e_f_integral)
+                        : Yield(f, pace, motion.x);
     } else {
       wanted = config_.approach_speed_mps *
                reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
+      wanted += anchor_.Step(motion.x, std::min(wanted, into));
     }
-    const double allowed = std::clamp(wanted, -config_.speed_limit_mps, config_.speed_limit_mps);
+    const double allowed = std::clamp(wanted, -off, into);
     demand.speed_limited = allowed != wanted;
+    demand.held = motion.allowed.held;
+    demand.held_now = demand.held && !held_;
+    demand.lost = motion.allowed.lost;
+    held_ = demand.held;
     // Anti-windup: no more of what the limit already refuses.
-    if (in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
+    if (pressing && in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
       state_.e_f_integral += T_ * demand.e_f;
     demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
     demand.z = state_.z;
@@ -91,20 +121,38 @@ class ForceMode {
   }
 
  private:
-  /// Contact before its time, on a wall that is higher than believed: touched with f_d = 0, not pushed
-  /// through by position.
-  bool Early(double t_s, double f) const noexcept {
-    return profile_.desired_N > 0.0 && t_s < profile_.start_s && (in_contact() || f > config_.threshold_N);
+  /// Contact without a wanted force: before its time, on a wall that is higher than believed, or after its
+  /// end. Touched with f_d = 0 until the path leads off the wall, not pushed into by position. An observed
+  /// force may be a wrong weight: alone it makes no contact.
+  bool Touches(double f, double path_gap, bool sensed) const noexcept {
+    if (!(profile_.desired_N > 0.0) || path_gap > kLeaves_m) return false;
+    return in_contact() || (sensed && f > config_.threshold_N);
   }
 
+  /// Normal speed at f_d = 0: gives way to what is more than half of a contact. Less may be the sensor's own,
+  /// and following it would drift for ever: there the tip stays where it is.
+  double Yield(double f, double pace, double x) noexcept {
+    state_.e_f_integral *= std::exp(-T_ / kForget_s);
+    const double half = 0.5 * config_.threshold_N;
+    const double felt = f - std::clamp(f, -half, half);
+    const double z_d = control::NormalSpeed(Gains(pace), -felt, state_.e_f_integral);
+    if (felt == 0.0) return z_d + anchor_.Step(x, z_d);
+    anchor_.Reset();
+    return z_d;
+  }
+
+  static constexpr double kLeaves_m = 0.2e-3;
+  static constexpr double kForget_s = 0.1;
   static constexpr double kNoContact = 1e12;
   static constexpr double kPromptPace = 0.99;
   ForceModeConfig config_;
   reference::ForceProfile profile_;
   WallStiffness wall_;
+  NormalAnchor anchor_;
   double T_;
   control::ForceState state_;
   double contact_s_ = kNoContact;
+  bool held_ = false;
 };
 
 }  // namespace reed::strategy

@@ -15,7 +15,12 @@ class ForceTare {
     ++count_;
     zero_ += (force - zero_) / count_;
   }
+  double Norm() const noexcept { return zero_.norm(); }
   bool complete() const noexcept { return count_ >= kReadings; }
+  /// What the environment does to the arm: without a zero as read.
+  Eigen::Vector3d Felt(const Eigen::Vector3d& force) const noexcept {
+    return complete() ? Apply(force) : force;
+  }
   Eigen::Vector3d Apply(const Eigen::Vector3d& force) const noexcept { return force - zero_; }
 
  private:

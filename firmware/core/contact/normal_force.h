@@ -5,7 +5,8 @@
 //             arm that touches nothing until the sensor is trusted again
 //   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
 //   motion,
-//             slowly while the wall is sought, and stands still in contact without a sensor
+//             slowly while the wall is sought, and stands still in contact without a sensor, also in one that is
+//             made before its time
 //   at a change of source the difference of both is carried over and forgotten with kForget_s
 #pragma once
 
@@ -18,8 +19,10 @@ namespace reed::strategy {
 
 class NormalForce {
  public:
-  NormalForce(const Eigen::Vector3d& normal, double T) noexcept
+  /// contact_N: an observed force that rises by more while the tip approaches is a wall and no new zero.
+  NormalForce(const Eigen::Vector3d& normal, double contact_N, double T) noexcept
       : normal_(normal),
+        contact_N_(contact_N),
         tare_share_(-std::expm1(-T / kTare_s)),
         seek_share_(-std::expm1(-T / kSeek_s)),
         forget_(std::exp(-T / kForget_s)) {}
@@ -30,6 +33,10 @@ class NormalForce {
     carried_ = 0.0;
     tare_ = 0.0;
   }
+  /// The sensor's force on the arm, all axes; as read while there is no zero. N.
+  Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
+  /// By how much the zero differs from what a sensor that touches nothing reads, N.
+  double ZeroOffset() const noexcept { return zero_.Norm(); }
   bool settled() const noexcept { return zero_.complete(); }
 
   /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the
@@ -45,14 +52,20 @@ class NormalForce {
     if (stayed_free_ && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
   }
 
-  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N.
+  /// The observed force rose as it does when the tip meets a wall: good enough for a contact before its time.
+  bool met_wall() const noexcept { return met_; }
+
+  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N. x_dot: normal speed of
+  /// the tip, m/s, < 0: into the wall.
   double Step(ForceSource source, const Eigen::Vector3d& read, const Eigen::Vector3d& observed,
-              bool in_contact) noexcept {
+              bool in_contact, double x_dot = 0.0) noexcept {
     const bool sensor = source == ForceSource::kKnown;
     const double by_sensor = normal_.dot(zero_.Apply(read));
     const double by_observer = normal_.dot(observed);
     if (sensor) tare_ += tare_share_ * (by_observer - by_sensor - tare_);
-    if (!sensor && !in_contact) {
+    const bool rises = !sensor && by_observer - tare_ > contact_N_;
+    met_ = rises && (met_ || x_dot < -kApproaching_mps);
+    if (!sensor && !in_contact && !met_) {
       const double share = source == ForceSource::kObserver ? seek_share_ : tare_share_;
       tare_ += share * (by_observer - tare_);
     }
@@ -65,15 +78,18 @@ class NormalForce {
   }
 
  private:
-  static constexpr double kTare_s = 0.1;    // faster than the weight changes
-  static constexpr double kSeek_s = 1.0;    // while the wall is sought: slower than the rise of a contact
+  static constexpr double kTare_s = 0.1;  // faster than the weight changes
+  static constexpr double kSeek_s = 1.0;  // while the wall is sought: slower than the rise of a contact
+  static constexpr double kApproaching_mps = 0.5e-3;
   static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
   Eigen::Vector3d normal_;
+  double contact_N_;
   double tare_share_, seek_share_, forget_;
   ForceTare zero_, returned_;
   bool stayed_free_ = false;
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;
+  bool met_ = false;  // a wall, before its time
 };
 
 }  // namespace reed::strategy

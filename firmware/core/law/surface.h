@@ -26,7 +26,7 @@ struct Reference {
 /// Auxiliary signal v and its derivative.
 template <int N>
 struct Auxiliary {
-  Vec<N> e, v, v_dot;
+  Vec<N> e = Vec<N>::Zero(), v = Vec<N>::Zero(), v_dot = Vec<N>::Zero();
 };
 
 // clang-format off

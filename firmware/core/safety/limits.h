@@ -16,7 +16,7 @@ using Vec = Eigen::Matrix<double, N, 1>;
 template <int N>
 struct LimitValues {
   Vec<N> torque = Vec<N>::Zero();        // N·m, symmetric
-  double torque_step = 0.0;              // N·m per cycle
+  Vec<N> torque_step = Vec<N>::Zero();   // N·m per cycle
   Vec<N> position_min = Vec<N>::Zero();  // rad, half the margin taken off
   Vec<N> position_max = Vec<N>::Zero();
   Vec<N> speed = Vec<N>::Zero();  // rad/s

@@ -17,6 +17,8 @@ enum class Reason : std::int32_t {
   kPhaseBudget = 5,
   kStall = 6,
   kCollision = 7,
+  kForceZero = 8,
+  kStretchHeld = 9,
   // trips
   kJointPosition = 32,
   kJointSpeed = 33,
@@ -31,12 +33,15 @@ enum class Reason : std::int32_t {
   kUnexpectedJoint = 42,
   kPhaseBudgetInRow = 44,
   kStaleWrench = 43,
+  kWrenchRange = 45,
+  kStretched = 46,
   // limits that act
   kTorque = 96,
   kTorqueRate = 97,
   kNormalSpeed = 98,
   kHeldMeasurement = 99,
   kRampDown = 100,
+  kStretch = 101,
 };
 
 constexpr bool IsTrip(Reason reason) noexcept {
@@ -63,6 +68,12 @@ constexpr const char* Text(int code) noexcept {
       return "cycles were missed, value is how many";
     case Reason::kCollision:
       return "collision: the observed torque of a joint jumped although nothing was to be touched, N·m";
+    case Reason::kForceZero:
+      return "the force sensor's zero differs from no force by more than its noise: a bias, or the arm "
+             "starts in a wall, N";
+    case Reason::kStretchHeld:
+      return "the tip is held: nearly stretched or folded along the wall's normal, joint motion per tip "
+             "motion in rad/m";
     case Reason::kJointPosition:
       return "joint position limit, rad";
     case Reason::kJointSpeed:
@@ -87,6 +98,11 @@ constexpr const char* Text(int code) noexcept {
       return "stopped by the operator";
     case Reason::kStaleWrench:
       return "force measurement too old for the law that tracks it, cycles";
+    case Reason::kWrenchRange:
+      return "the force sensor is at the end of its range, the contact force is not known; the largest "
+             "reading, N";
+    case Reason::kStretched:
+      return "the arm cannot press in this pose: stretched or folded along the wall's normal, rad/m";
     case Reason::kPhaseBudgetInRow:
       return "a phase was longer than its budget in too many cycles in a row";
     case Reason::kTorque:
@@ -99,6 +115,8 @@ constexpr const char* Text(int code) noexcept {
       return "old measurement used, cycles";
     case Reason::kRampDown:
       return "torque ramps down: measurement too old, cycles";
+    case Reason::kStretch:
+      return "normal motion is held near a stretched arm, rad/m";
   }
   return "unknown";
 }

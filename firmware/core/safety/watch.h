@@ -18,18 +18,19 @@ class Watch {
   explicit Watch(double T) noexcept : T_(T) {}
 
   /// Trips are looked for only while torque may flow: a still arm behind closed brakes is safe. source: of the last
-  /// cycle.
+  /// cycle. contact_force: what the wall feels as far as it is known, N.
   Verdict CheckState(const Measurement<N>& measured, const CycleState& state,
                      const mode::Supervisor& supervisor, const Limits<N>& limits,
-                     strategy::ForceSource source) noexcept {
+                     strategy::ForceSource source, double contact_force) noexcept {
     CountIncomplete(measured, supervisor);
     NoteAbsence(state);
-    return NameAbsence(Check(measured, state, supervisor, limits, source));
+    return NameAbsence(Check(measured, state, supervisor, limits, source, contact_force));
   }
 
  private:
   Verdict Check(const Measurement<N>& measured, const CycleState& state, const mode::Supervisor& supervisor,
-                const Limits<N>& limits, strategy::ForceSource source) const noexcept {
+                const Limits<N>& limits, strategy::ForceSource source,
+                double contact_force) const noexcept {
     const bool active = supervisor.mode() == mode::Mode::kActive;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
@@ -48,9 +49,11 @@ class Watch {
     // A law that tracks the measured force presses blindly without it; one that can do without says so by its source.
     if (active && source == strategy::ForceSource::kKnown && !wrench_fresh)
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
-    const double force = wrench_fresh ? measured.force.norm() : 0.0;
-    return limits.CheckState(measured.theta, measured.theta_dot, force, measured.OldestAge(),
-                             measured.OldestJoint());
+    const Verdict verdict = limits.CheckState(measured.theta, measured.theta_dot, contact_force,
+                                              measured.OldestAge(), measured.OldestJoint());
+    if (verdict.trip == Reason::kNone && wrench_fresh && measured.wrench_saturated)
+      return {Reason::kWrenchRange, -1, measured.force.cwiseAbs().maxCoeff(), 0};
+    return verdict;
   }
 
   /// Grid points that the controller missed in a row.
