@@ -13,7 +13,8 @@ from reed_tools.errors import UsageError
 from reed_tools.figures import checks, metrics, plots, report_page, result_table, summary
 from reed_tools.figures.evaluate import evaluate
 from reed_tools.record import signals
-from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
+from reed_tools.record.merge import merge
+from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, require_whole
 
 
 def recorded(folder, wanted=(), **options):

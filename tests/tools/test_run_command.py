@@ -68,7 +68,7 @@ def test_a_damaged_run_folder_is_one_line_and_its_result_stays(reed, tmp_path):
     assert "is damaged" in one_line(reed("report", tmp_path), 2)
     log.write_bytes(whole)
     (tmp_path / "effective.toml").write_text("[scenario\n")
-    assert "effective.toml: " in one_line(reed("report", tmp_path), 2)
+    assert "effective.toml is damaged" in one_line(reed("report", tmp_path), 2)
     assert (tmp_path / "summary.json").read_text() == before
 
 

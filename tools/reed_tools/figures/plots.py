@@ -7,6 +7,7 @@ import numpy as np
 from reed_tools.figures import lyapunov, lyapunov_plot
 from reed_tools.record.signals import SOURCES, Signals
 from reed_tools.record.telemetry_log import Recording
+from reed_tools.record.whole_file import replacing
 from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins, ticker
 
 TIME = "time since the arm became active [s]"
@@ -29,7 +30,8 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
             if figure is None:
                 continue
             mark_switches(figure, signals, name)
-            figure.savefig(folder / f"{name}.png")
+            with replacing(folder / f"{name}.png") as file:
+                figure.savefig(file, format="png")
             plt.close(figure)
             made.append(folder / f"{name}.png")
     return made

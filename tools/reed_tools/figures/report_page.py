@@ -4,6 +4,7 @@ import html
 from pathlib import Path
 
 from reed_tools.figures.result_table import lines
+from reed_tools.record.whole_file import write_text
 from reed_tools.show.html_parts import STYLE, mark, picture, table
 from reed_tools.show.tables import number
 
@@ -48,6 +49,6 @@ def write(folder: Path, summary: dict, pictures: list[Path]) -> Path:
     body = "\n".join(f"<h2>{name}</h2>\n{content}"
                      for name, content in sections(summary, (folder / "effective.toml").read_text(), pictures))
     path = folder / "report.html"
-    path.write_text(f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: {title}</title>'
-                    f"<style>{STYLE}</style></head><body>\n{head}\n{body}\n</body></html>\n")
+    write_text(path, f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: {title}</title>'
+                     f"<style>{STYLE}</style></head><body>\n{head}\n{body}\n</body></html>\n")
     return path

@@ -10,6 +10,7 @@ from reed_tools.figures import checks, metrics
 from reed_tools.record import configuration
 from reed_tools.record.signals import Signals, join
 from reed_tools.record.telemetry_log import Recording
+from reed_tools.record.whole_file import write_text
 
 SCHEMA = 1
 
@@ -84,4 +85,4 @@ def machine(recording: Recording, clock: str | None) -> dict | None:
 
 
 def write(folder: Path, summary: dict) -> None:
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(folder / "summary.json", json.dumps(summary, indent=2, allow_nan=False) + "\n")

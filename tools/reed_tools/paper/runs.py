@@ -133,15 +133,15 @@ def keep(job: Job) -> None:
     complaint = what_failed(job.plan, outcome)
     if outcome.interrupted or complaint:
         raise RunError(f"{job.experiment.key}: {complaint or 'interrupted'}")
-    telemetry_log.merge([job.plan.log("firmware"), job.plan.log("plant")], job.folder / "telemetry.lcmlog")
-    signals = join(telemetry_log.load(job.folder / "telemetry.lcmlog"))
+    logs = [job.plan.log("firmware"), job.plan.log("plant")]
+    signals = join(telemetry_log.load(*logs))
     if signals is None:
         raise RunError(f"{job.experiment.key}: the arm never became active: {last_line(job.plan, 'firmware')}")
     stopped = last_line(job.plan, "firmware") if outcome.firmware_status == STOPPED else ""
     np.savez(job.folder / "part.npz", stopped=stopped, **vars(signals))
     (job.folder / "part.npz").replace(job.folder / "signals.npz")
-    for raw in ("telemetry.lcmlog", "bus.candump"):
-        (job.folder / raw).unlink(missing_ok=True)
+    for raw in (*logs, job.folder / "bus.candump"):
+        raw.unlink(missing_ok=True)
 
 
 def load(experiment: Experiment, folder: Path) -> Result:
