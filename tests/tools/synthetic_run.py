@@ -147,17 +147,31 @@ def bus_message(cycles: int):
     return bus
 
 
+def event_message(t: float, code: int, joint: int, value: float):
+    import reed
+
+    event = reed.event_t()
+    event.cycle = LEAD_CYCLES + round(t * RATE_HZ)
+    event.utime, event.mode, event.force_source = event.cycle * 1000, 3, 1
+    event.code, event.joint, event.value, event.text = code, joint, value, f"event {code}"
+    return event
+
+
 def write(folder: Path, checks: list[tuple[str, float]], duration_s: float = 3.0, clock: str = "lockstep",
-          fault_at_s: float | None = None, extra_plant_cycles: int = 0) -> Path:
-    """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them."""
+          fault_at_s: float | None = None, extra_plant_cycles: int = 0, lost=lambda program, t: False, events=()) -> Path:
+    """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them. `lost` says which
+    program's messages are missing at t (s since active); `events`: (program, t, code, joint, value)."""
     use_message_types()
     folder.mkdir(parents=True, exist_ok=True)
     logs = {name: open_log(folder / f"{name}.lcmlog", "w") for name in ("firmware", "plant")}
     cycles = LEAD_CYCLES + round(duration_s * RATE_HZ)
     logs["firmware"].write_event(0, "REED_RUN", run_message(clock, finished=False).encode())
     for program, channel, message in messages(cycles + extra_plant_cycles, clock, fault_at_s):
-        if message.cycle < cycles or program == "plant":
+        if (message.cycle < cycles or program == "plant") and not lost(program, (message.cycle - LEAD_CYCLES) / RATE_HZ):
             logs[program].write_event(message.utime, channel, message.encode())
+    for program, t, code, joint, value in events:
+        event = event_message(t, code, joint, value)
+        logs[program].write_event(event.utime, "REED_EVENT" if program == "firmware" else "REED_PLANT_EVENT", event.encode())
     end_us = cycles * 1000
     for channel, message in (("REED_BUS", bus_message(cycles)), ("REED_RUN", run_message(clock, finished=True))):
         message.utime = end_us

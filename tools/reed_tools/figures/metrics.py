@@ -66,11 +66,6 @@ def windows(signals: Signals | None, rate_hz: float) -> list[dict]:
     return result
 
 
-def last_second(signals: Signals, rate_hz: float) -> np.ndarray:
-    end = float(signals.t[-1]) + 1.0 / rate_hz
-    return in_window(signals, end - 1.0, end, rate_hz)
-
-
 def timing_us(recording: Recording, clock: str) -> dict:
     """Percentiles of each phase. Waking up has no meaning where nothing sleeps."""
     table = recording.tables["REED_TIMING"]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools.figures import checks, metrics
+from reed_tools.figures.run_data import RunData
 from reed_tools.record import configuration
 from reed_tools.record.signals import Signals, join
 from reed_tools.record.telemetry_log import Recording
@@ -47,8 +48,8 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
     return summary, signals
 
 
-def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
-    return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
+def run_data(effective: dict, recording: Recording, signals: Signals | None) -> RunData:
+    return RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
                           configuration.parameter_boxes(effective), configuration.sigma_limits(effective), effective["scenario"]["duration_s"])
 
 

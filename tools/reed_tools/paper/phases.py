@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reed_tools.figures import metrics
-from reed_tools.figures.checks import CONTACT_N
+from reed_tools.figures.run_data import CONTACT_N
 from reed_tools.record.signals import Signals
 
 BAND = 0.05          # of the final desired force: inside it the force is stable
