@@ -7,10 +7,12 @@ compute from a log can be checked without the programs.
 """
 
 import math
+import os
 from pathlib import Path
 
+import lcm
+
 from reed_tools.paths import use_message_types
-from reed_tools.record.telemetry_log import open_log
 
 DOF = 2
 D = (3.0, 4.0)
@@ -157,13 +159,22 @@ def event_message(t: float, code: int, joint: int, value: float):
     return event
 
 
+def liblcms_log(path: Path) -> lcm.EventLog:
+    """Through its descriptor's name: liblcm takes names in UTF-8 only."""
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        return lcm.EventLog(f"/proc/self/fd/{descriptor}", "w", overwrite=True)
+    finally:
+        os.close(descriptor)
+
+
 def write(folder: Path, checks: list[tuple[str, float]], duration_s: float = 3.0, clock: str = "lockstep",
           fault_at_s: float | None = None, extra_plant_cycles: int = 0, lost=lambda program, t: False, events=()) -> Path:
     """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them. `lost` says which
     program's messages are missing at t (s since active); `events`: (program, t, code, joint, value)."""
     use_message_types()
     folder.mkdir(parents=True, exist_ok=True)
-    logs = {name: open_log(folder / f"{name}.lcmlog", "w") for name in ("firmware", "plant")}
+    logs = {name: liblcms_log(folder / f"{name}.lcmlog") for name in ("firmware", "plant")}
     cycles = LEAD_CYCLES + round(duration_s * RATE_HZ)
     logs["firmware"].write_event(0, "REED_RUN", run_message(clock, finished=False).encode())
     for program, channel, message in messages(cycles + extra_plant_cycles, clock, fault_at_s):

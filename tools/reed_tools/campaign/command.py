@@ -7,10 +7,10 @@ import shutil
 from contextlib import ExitStack
 from pathlib import Path
 
-from reed_tools import folders
+from reed_tools import folders, versions
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
-from reed_tools.campaign.workers import Workers, build_id, free_bus
+from reed_tools.campaign.workers import Workers, free_bus
 from reed_tools.errors import RunError, UsageError
 from reed_tools.run import bus_choice
 
@@ -49,7 +49,7 @@ def run(arguments) -> int:
     print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
     bus_choice.require_multicast_route()
     with ExitStack() as stack:
-        build, buses = build_id(), [free_bus(stack) for _ in range(jobs)]
+        build, buses = versions.build(), [free_bus(stack) for _ in range(jobs)]
         interrupted = run_pending(folder, campaign, pending, buses, build, finished)
         records = [finished[index] for index in indices if index in finished]
         repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, buses, build)

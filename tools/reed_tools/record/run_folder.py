@@ -1,6 +1,7 @@
 """What a run folder keeps of its run, and whether that is still what the run left there."""
 
 import hashlib
+import json
 import os
 from pathlib import Path
 
@@ -11,9 +12,10 @@ from reed_tools.record.whole_file import write_text
 
 CONFIGURATION = "effective.toml"
 TELEMETRY = "telemetry.lcmlog"
+ORIGIN = "run.json"                          # command, versions, machine
 PARTS = ("firmware.lcmlog", "plant.lcmlog")  # until they are merged
 SUMS = "SHA256SUMS"                          # in the form that `sha256sum -c` reads
-RECORDS = (CONFIGURATION, TELEMETRY, "bus.candump")
+RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump")
 FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt")
 
 
@@ -39,6 +41,18 @@ def complete(folder: Path) -> str | None:
     except OSError as error:
         return f"{error.filename}: {(error.strerror or str(error)).lower()}; the records are kept as they are"
     return None
+
+
+def origin(folder: Path) -> dict:
+    """What ORIGIN says; a folder of an earlier version, or of no single run, says nothing."""
+    path = folder / ORIGIN
+    try:
+        found = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    except ValueError as error:
+        raise UsageError(f"{path}: {error}") from None
+    if not isinstance(found, dict):
+        raise UsageError(f"{path}: expected an object")
+    return {key: found.get(key) for key in ("command", "versions", "machine")}
 
 
 def require_ended(folder: Path) -> None:

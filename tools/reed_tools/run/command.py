@@ -13,7 +13,7 @@ from reed_tools.paths import program
 from reed_tools.record import run_folder, trace_events
 from reed_tools.record.telemetry_log import load
 from reed_tools.record.whole_file import draft_of
-from reed_tools.run import bus_choice, hil, progress, scenario, vm
+from reed_tools.run import bus_choice, hil, origin, progress, scenario, vm
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
@@ -53,6 +53,7 @@ def run(arguments) -> int:
             folder = folders.fresh(arguments.out, effective["scenario"]["name"], OWN_FILES,
                                    "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
+        origin.write(folder, arguments)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
