@@ -9,8 +9,10 @@ import synthetic_run as synthetic
 from synthetic_signals import run as still_run
 
 from reed_tools.figures import command, events, marks, plots, result_table
+from reed_tools.figures.parameter_units import unit_of
 from reed_tools.paths import ROOT
 from reed_tools.record import event_names
+from reed_tools.show import drawing
 
 TRIP = [("plant", 0.4, 206, -1, 0.5), ("firmware", 1.499, 33, 1, 6.25), ("firmware", 1.5, 34, -1, 60.5)]
 
@@ -116,3 +118,19 @@ def test_joints_turn_round_where_their_reference_does():
     assert marks.reversals(np.cos(2 * np.pi * t)).tolist() == pytest.approx([250, 750, 1250, 1750], abs=3)
     assert len(marks.reversals(np.zeros(100))) == 0
     assert len(marks.reversals(np.where(t < 1.0, 1.0, 1e-4 * np.sin(900 * t)))) == 0, "noise at rest is no reversal"
+
+
+def test_parameters_have_the_unit_of_what_they_add():
+    arm = {"param_shapes": [{"param": "m", "body": 1, "mass": 1.0}, {"param": "I", "body": 1, "mass": 0.0}, {"param": "b", "viscous_weights": [1.0]}]}
+    assert [unit_of(arm, name) for name in ("m", "I", "b")] == ["kg", "kg·m²", "N·m·s/rad"]
+
+
+def test_a_band_holds_what_chatters_and_its_line_the_mean():
+    figure, axis = drawing.plt.subplots()
+    t = np.arange(1000) * 1e-3
+    drawing.plot_with_band(axis, t, np.where(np.arange(1000) % 2, 5.0, -3.0), "black", "u")
+    (line,), (band,) = axis.lines, axis.collections
+    assert len(line.get_xdata()) == 100 and set(line.get_ydata()) == {1.0}
+    edges = band.get_paths()[0].vertices[:, 1]
+    assert (edges.min(), edges.max()) == (-3.0, 5.0)
+    drawing.plt.close(figure)

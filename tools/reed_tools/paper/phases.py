@@ -58,7 +58,7 @@ def seconds(signals: Signals, rate_hz: float) -> list[np.ndarray | None]:
 
 
 def times(value: float | None, best: float | None) -> str:
-    """How many times worse than the robust law; below 1: better."""
+    """How many times worse than the law `separated`; below 1: better."""
     if value is None:
         return "stopped"
     if best is None or best <= 0.0:

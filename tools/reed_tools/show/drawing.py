@@ -69,3 +69,17 @@ def label_left(axis, text: str) -> None:
     """At the same place in every panel, however long the numbers beside it are."""
     axis.set_ylabel(text)
     axis.yaxis.set_label_coords(-0.056, 0.5)
+
+
+BIN_S = 0.01
+
+
+def plot_with_band(axis, t, values, color, label=None) -> None:
+    """A signal that chatters: its mean over 10 ms as a line, its range as a shade, so that no curve hides the others."""
+    if len(t) < 2:
+        return
+    rows = max(1, round(BIN_S / max(float(t[1] - t[0]), 1e-9)))
+    count = len(t) // rows
+    blocks, times = values[:count * rows].reshape(count, rows), t[:count * rows].reshape(count, rows).mean(axis=1)
+    axis.fill_between(times, blocks.min(axis=1), blocks.max(axis=1), color=color, alpha=0.22, linewidth=0)
+    axis.plot(times, blocks.mean(axis=1), color=color, linewidth=0.9, label=label)
