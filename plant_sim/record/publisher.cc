@@ -57,7 +57,8 @@ void Publisher::Run() {
   }
   if (log_ && !log_->Flush() && log_complete_) {
     log_complete_ = false;
-    std::fprintf(stderr, "reed_plant_sim: the log is incomplete: its disk takes no more\n");
+    std::fprintf(stderr, "reed_plant_sim: %s: incomplete, its disk takes no more\n",
+                 config_.log_path.c_str());
   }
 }
 
@@ -65,8 +66,8 @@ void Publisher::Publish(const Record& record) {
   const Message message = encoder_.Encode(record);
   if (log_ && log_complete_ && !log_->Write(message.utime, message.channel, message.bytes)) {
     log_complete_ = false;
-    std::fprintf(stderr, "reed_plant_sim: the log ends at utime %lld: its disk takes no more\n",
-                 static_cast<long long>(message.utime));
+    std::fprintf(stderr, "reed_plant_sim: %s: ends at utime %lld, its disk takes no more\n",
+                 config_.log_path.c_str(), static_cast<long long>(message.utime));
   }
   RateLimit& limit = std::holds_alternative<PlantRecord>(record) ? plant_limit_ : event_limit_;
   if (network_ && limit.Allow(MonotonicNs())) network_->Publish(message.channel, message.bytes);

@@ -160,10 +160,12 @@ TEST_F(PublisherLog, EqualRecordsMakeEqualFiles) {
   EXPECT_EQ(first, bytes());
 }
 
-TEST_F(PublisherLog, AFullDiskIsReportedAndDelaysNobody) {
+TEST_F(PublisherLog, AFullDiskIsReportedWithItsFileAndDelaysNobody) {
+  testing::internal::CaptureStderr();
   Publisher publisher({"/dev/full", false, false, WhenFull::kWait});
   for (int k = 0; k < 20000; ++k) publisher.Put(NumberedRecord(k));
   EXPECT_FALSE(publisher.Finish());
+  EXPECT_EQ(testing::internal::GetCapturedStderr().find("reed_plant_sim: /dev/full: ends at utime "), 0U);
 }
 
 TEST_F(PublisherLog, APathThatCannotBeWrittenIsOneClearError) {
