@@ -23,6 +23,7 @@ SWITCH_S = 2.25          # known -> unknown
 AMPLITUDE = (4e-3, -3e-3)  # rad, orthogonal to D
 ALONG_D = 1e-3           # rad per unit of D
 FORCE_ERROR_N = 0.2
+FORCE_DESIRED_N = 8.0
 IMPACT_N = 9.0
 TORQUE_STEP = 0.5
 
@@ -100,7 +101,7 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
             setattr(control, name, [0.0] * DOF)
         control.theta_plan, control.D, control.normal = plan, list(D), list(NORMAL)
         control.tau = [10.0 + (TORQUE_STEP if t >= SWITCH_S else 0.0), -5.0]
-        control.f_d = 8.0 if t >= 0.5 else 0.0
+        control.f_d = FORCE_DESIRED_N if t >= 0.5 else 0.0
         control.f = force_true(t) + 0.05
         control.tip_plan = [0.4, 0.0, 0.3]
         yield "firmware", "REED_CONTROL", control

@@ -62,6 +62,9 @@ def test_contact_that_was_never_made_is_said(tmp_path, monkeypatch):
     monkeypatch.setattr(synthetic, "force_true", lambda t: 0.0)
     verdict, by_name = judged(tmp_path, asked=[("impact_peak_N", 10.0), ("contact_lost_ms", 0.0)])
     assert verdict == "fail"
+    assert judged(tmp_path / "again")[1]["force_rms_N_last_second"]["value"] is not None, "a force is desired here"
+    monkeypatch.setattr(synthetic, "FORCE_DESIRED_N", 0.0)
+    assert judged(tmp_path / "none")[1]["force_rms_N_last_second"]["why"] == "contact was never made"
     assert by_name["impact_peak_N"]["why"] == by_name["contact_lost_ms"]["why"] == "contact was never made"
 
 

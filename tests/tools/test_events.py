@@ -100,7 +100,9 @@ def test_a_failure_without_a_trip_has_a_cause_too():
     good, never = check("faults", 0, 0, True), check("impact_peak_N", None, 10.0, False, "contact was never made")
     assert events.cause(None, [good]) is None
     assert events.cause(None, [good, never]) == "impact_peak_N: contact was never made"
-    assert events.cause(None, [check("joint_rms_mrad", 3.0, 1.0, False), never]) == "joint_rms_mrad 3, limit 1 (and 1 more)"
+    large = check("joint_rms_mrad", 3.0, 1.0, False)
+    assert events.cause(None, [large, check("tip_rms_mm", 2.0, 1.0, False)]) == "joint_rms_mrad 3, limit 1 (and 1 more)"
+    assert events.cause(None, [large, never]) == "impact_peak_N: contact was never made (and 1 more)"
     short = check("missing_s", 1.0, 0, False, "the arm was active for 2 of 3 s")
     assert events.cause(None, [never, short]) == "missing_s: the arm was active for 2 of 3 s (and 1 more)"
 

@@ -12,7 +12,10 @@ IMPACT_S = 0.3           # how long after first contact an impact may last
 def force_error_last_second(run: RunData) -> np.ndarray:
     error = metrics.force_error(run.signals, run.last_second())
     if error is None:
-        raise NoFigure("there is no wall" if not run.signals.has_wall else "no force was desired in the last second")
+        if not run.signals.has_wall:
+            raise NoFigure("there is no wall")
+        run.first_contact()  # a force is desired from contact on
+        raise NoFigure("no force was desired in the last second")
     return error
 
 

@@ -53,6 +53,7 @@ def cause(reason: dict | None, checks: list[dict]) -> str | None:
         return None
     if reason:
         return in_words(reason)
-    first = next((check for check in broken if check["name"] == "missing_s"), broken[0])
+    # What is missing explains what is too large.
+    first = min(broken, key=lambda check: (check["name"] != "missing_s", check["why"] is None))
     said = f"{first['name']}: {first['why']}" if first["why"] else f"{first['name']} {first['value']:.4g}, limit {first['limit']:.4g}"
     return said + (f" (and {len(broken) - 1} more)" if len(broken) > 1 else "")

@@ -62,7 +62,7 @@ def tip_error(signals: Signals):
     axis.plot(signals.t, 1e3 * np.linalg.norm(signals.tangential_tip, axis=1), color="black", linestyle=":",
               label="|tangential|")
     axis.set_title("Tip error: true bent tip − planned tip, base axes", loc="left")
-    axis.set_ylabel("tip error [mm]")
+    label_left(axis, "tip error [mm]")
     axis.set_xlabel(TIME)
     legend_right(figure, axis)
     return figure
@@ -74,10 +74,10 @@ def force(signals: Signals):
     axis.plot(signals.t, signals.force_true, color="#D55E00", label="true")
     axis.plot(signals.t, signals.force_desired, color="black", linestyle="--", label="desired")
     axis.set_title("Normal force of the wall on the robot", loc="left")
-    axis.set_ylabel("force [N]")
+    label_left(axis, "force [N]")
     legend_right(figure, axis)
     error.plot(signals.t, signals.force_desired - signals.force_true, color="#D55E00")
-    error.set_ylabel("desired − true [N]")
+    label_left(error, "desired − true [N]")
     error.set_xlabel(TIME)
     return figure
 
@@ -131,8 +131,8 @@ def bookkeeping(signals: Signals, effective: dict):
     lyapunov_plot.draw(top, bottom, book)
     legend_right(figure, top, bottom)
     top.set_title("Stability: V of " + ("(42)" if book.force_known else "(45)") + ", from the plant's truth", loc="left")
-    top.set_ylabel("V [J]")
-    bottom.set_ylabel("V̇ [W]")
+    label_left(top, "V [J]")
+    label_left(bottom, "V̇ [W]")
     bottom.set_xlabel(TIME)
     return figure
 
