@@ -22,7 +22,7 @@ def tracked(*patterns):
 FILES = tracked()
 DOCUMENTS = [name for name in FILES if name.endswith(".md")]
 SOURCE = "h|cc|c|py|md|toml|lcm|dbc|txt|pml"
-MADE = {"effective.toml"}  # written by a run
+MADE = {"effective.toml", "run.json"}  # written by a run
 PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy"}
 PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "cmake": "CMake", "ninja-build": "Ninja", "g++": "g++", "pkg-config": "pkg-config", "python3": "Python", "python3-venv": "Python",

@@ -45,6 +45,9 @@ def run(inspect_program, *arguments, text=""):
     ('{"cases": [{"q": [0,0,0,0,0]}, {"q": [0,0,0,0,0], "qd": 1}]}', "cases[1].qd"),
     ('{"cases": [{"q": [0,0,0,0,0], "dq": [0,0,0,0,0], "q_d": [0,0,0,0,0], "dq_d": [0,0,0,0,0], "ddq_d": [0,0,0,0,0]}]}',
      "Kd: missing"),
+    ('{"cases": [{"q": [0,0,0,0,0], "qdot": [0,0,0,0,0]}]}', "cases[0].qdot: nothing reads it; allowed: q, qd, "),
+    ('{"cases": [{"Q": [0,0,0,0,0]}]}', "cases[0].Q: nothing reads it"),
+    ('{"cases": [{"q": [0,0,0,0,0]}, {"qd": [0,0,0,0,0]}]}', "cases[1].q: missing"),
 ])
 def test_a_wrong_case_is_one_line_that_says_where(inspect_program, text, says):
     done = run(inspect_program, "--arm", "a5", "--states", "-", text=text)
@@ -76,6 +79,17 @@ def test_a_wrong_arm_file_is_one_line_with_file_line_and_key(inspect_program, tm
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1, done.stderr
     where, line, rest = done.stderr.split(":", 2)
     assert (where, line.isdigit()) == (str(path), True) and says in rest, done.stderr
+
+
+def test_inputs_alone_and_reference_cases_with_numbers_of_their_own_are_answered(inspect):
+    q = [0.1, 0.6, -1.0, -0.7, 0.2]
+    bare = inspect("a5", [{"q": q, "note": "a pose"}], note="of no number", rel_err=1e-9)[0]
+    assert inspect("a5", [{"q": q, "T": np.eye(4).tolist(), "rel_err_of_T": 1e-9}])[0] == bare
+    for path in CASES.glob("*_A5.json"):
+        file = json.loads(path.read_text())
+        shared = {name: value for name, value in file.items() if name not in ("arm", "cases")}
+        inputs = [{name: value for name, value in case.items() if name in INPUTS | {"v"}} for case in file["cases"]]
+        assert all(inspect("a5", inputs, **shared)), path.stem
 
 
 def test_the_tool_offset_beside_the_cases_replaces_the_arms(inspect):

@@ -159,11 +159,22 @@ def test_an_arm_of_which_nothing_bends_says_so(inspect_program, tmp_path):
     (["--beam", "length=1,EI=1,rhoA=1"], ["--modes"]),
     (["--arm", "a5", "--beam", "length=1,EI=1,rhoA=1", "--modes", "3"], ["--arm", "--beam"]),
     (["--arm", "a5", "--modes", "3", "--at", "0.1,0.2"], ["--at", "5 angles"]),
+    (["--arm", "p2", "--modes", "3", "--at", "0.1", "nan"], ["--at", "finite"]),
+    (["--arm", "p2", "--at", "0.1", "0.2"], ["--at", "--modes"]),
 ])
 def test_a_wrong_question_is_one_line(arguments, words, inspect_program):
     done = inspect(inspect_program, *arguments)
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1, done.stderr
     assert all(word in done.stderr for word in words), done.stderr
+
+
+@pytest.mark.parametrize("words", [["0.2", "-0.6", "-0.9", "0.5", "0.3"], ["0.2,-0.6,-0.9,0.5,0.3"], ["-0.2,0.6", "0.9", "-0.5,.3"]])
+def test_a_pose_is_given_as_the_help_says(words, inspect_program, tmp_path):
+    wanted = [float(number) for word in words for number in word.split(",")]
+    assert answer(inspect_program, "--arm", "a5", "--modes", 2, "--at", *words)["q"] == wanted
+    assert answer(inspect_program, "--at", *words, "--arm", "a5", "--modes", 2)["q"] == wanted
+    done = reed("--plot", "p.svg", "--at", *words, "--arm", "a5", cwd=tmp_path)
+    assert done.returncode == 0 and (tmp_path / "p.svg").exists(), done.stderr
 
 
 def reed(*arguments, cwd):

@@ -30,8 +30,7 @@ def run_and_judge(name, folder, *entries):
         most = int((effective["scenario"]["duration_s"] + 60.0) * effective["timing"]["rate_hz"])
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(config), bus, "lockstep", str(folder), most)
         outcome = hil.run_pair(plan, lambda mode, t_s: None)
-    telemetry_log.merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
-    return outcome, summary.build(folder, telemetry_log.load(folder / "telemetry.lcmlog"))[0]
+    return outcome, summary.build(folder, telemetry_log.load(plan.log("firmware"), plan.log("plant")))[0]
 
 
 @pytest.mark.parametrize("name", SCENARIOS)

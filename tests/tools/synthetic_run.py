@@ -7,10 +7,12 @@ compute from a log can be checked without the programs.
 """
 
 import math
+import os
 from pathlib import Path
 
+import lcm
+
 from reed_tools.paths import use_message_types
-from reed_tools.record.telemetry_log import open_log
 
 DOF = 2
 D = (3.0, 4.0)
@@ -21,6 +23,7 @@ SWITCH_S = 2.25          # known -> unknown
 AMPLITUDE = (4e-3, -3e-3)  # rad, orthogonal to D
 ALONG_D = 1e-3           # rad per unit of D
 FORCE_ERROR_N = 0.2
+FORCE_DESIRED_N = 8.0
 IMPACT_N = 9.0
 TORQUE_STEP = 0.5
 
@@ -98,7 +101,7 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
             setattr(control, name, [0.0] * DOF)
         control.theta_plan, control.D, control.normal = plan, list(D), list(NORMAL)
         control.tau = [10.0 + (TORQUE_STEP if t >= SWITCH_S else 0.0), -5.0]
-        control.f_d = 8.0 if t >= 0.5 else 0.0
+        control.f_d = FORCE_DESIRED_N if t >= 0.5 else 0.0
         control.f = force_true(t) + 0.05
         control.tip_plan = [0.4, 0.0, 0.3]
         yield "firmware", "REED_CONTROL", control
@@ -147,17 +150,40 @@ def bus_message(cycles: int):
     return bus
 
 
+def event_message(t: float, code: int, joint: int, value: float):
+    import reed
+
+    event = reed.event_t()
+    event.cycle = LEAD_CYCLES + round(t * RATE_HZ)
+    event.utime, event.mode, event.force_source = event.cycle * 1000, 3, 1
+    event.code, event.joint, event.value, event.text = code, joint, value, f"event {code}"
+    return event
+
+
+def liblcms_log(path: Path) -> lcm.EventLog:
+    """Through its descriptor's name: liblcm takes names in UTF-8 only."""
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    try:
+        return lcm.EventLog(f"/proc/self/fd/{descriptor}", "w", overwrite=True)
+    finally:
+        os.close(descriptor)
+
+
 def write(folder: Path, checks: list[tuple[str, float]], duration_s: float = 3.0, clock: str = "lockstep",
-          fault_at_s: float | None = None, extra_plant_cycles: int = 0) -> Path:
-    """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them."""
+          fault_at_s: float | None = None, extra_plant_cycles: int = 0, lost=lambda program, t: False, events=()) -> Path:
+    """firmware.lcmlog, plant.lcmlog and effective.toml in `folder`, as the two programs would leave them. `lost` says which
+    program's messages are missing at t (s since active); `events`: (program, t, code, joint, value)."""
     use_message_types()
     folder.mkdir(parents=True, exist_ok=True)
-    logs = {name: open_log(folder / f"{name}.lcmlog", "w") for name in ("firmware", "plant")}
+    logs = {name: liblcms_log(folder / f"{name}.lcmlog") for name in ("firmware", "plant")}
     cycles = LEAD_CYCLES + round(duration_s * RATE_HZ)
     logs["firmware"].write_event(0, "REED_RUN", run_message(clock, finished=False).encode())
     for program, channel, message in messages(cycles + extra_plant_cycles, clock, fault_at_s):
-        if message.cycle < cycles or program == "plant":
+        if (message.cycle < cycles or program == "plant") and not lost(program, (message.cycle - LEAD_CYCLES) / RATE_HZ):
             logs[program].write_event(message.utime, channel, message.encode())
+    for program, t, code, joint, value in events:
+        event = event_message(t, code, joint, value)
+        logs[program].write_event(event.utime, "REED_EVENT" if program == "firmware" else "REED_PLANT_EVENT", event.encode())
     end_us = cycles * 1000
     for channel, message in (("REED_BUS", bus_message(cycles)), ("REED_RUN", run_message(clock, finished=True))):
         message.utime = end_us

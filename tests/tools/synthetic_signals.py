@@ -19,7 +19,7 @@ def run(source, law, n=50, **changed):
     """(signals, effective) of n cycles at 1 kHz."""
     dof, count = 5, 6
     fields = {name: np.zeros(n) for name in ("force_desired", "force_measured", "force_true", "force_integral", "stiffness")}
-    fields |= {name: np.zeros((n, dof)) for name in ("joint_error", "tangential_joint", "error", "s", "observer", "torque")}
+    fields |= {name: np.zeros((n, dof)) for name in ("joint_error", "tangential_joint", "error", "s", "observer", "torque", "reference_speed")}
     fields |= {name: np.zeros((n, 3)) for name in ("tip_error", "tangential_tip", "contact_force")}
     fields |= {"t": np.arange(n) * 1e-3, "cycle": np.arange(n), "position": constant(POSE, n), "has_wall": True,
                "p_hat": constant(ARM["p_true"], n), "eta_hat": np.zeros((n, count)), "sigma": np.zeros((n, 2)),

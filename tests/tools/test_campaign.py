@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import pytest
 
-from reed_tools.campaign import definition, draws, verdicts
+from reed_tools.campaign import definition, draws, plots, verdicts
 from reed_tools.campaign.definition import CAMPAIGNS, Drawn
 from reed_tools.paths import BUILD, ROOT, SCENARIOS
 
@@ -358,3 +358,10 @@ def wait_for_line(path):
     while not (path.exists() and path.read_text().endswith("\n")):
         assert time.monotonic() < deadline
         time.sleep(0.05)
+
+
+def test_drawn_entries_have_the_names_of_what_they_belong_to():
+    arm = {"param_names": ["m2", "bv"], "dh": [[0.0]] * 3, "param_shapes": [{"param": "m2", "mass": 1.0}, {"param": "bv", "viscous_weights": [1.0]}]}
+    assert plots.entry_name("plant.p_true", 0, arm) == "plant.p_true: m2 [kg]"
+    assert plots.entry_name("plant.p_true", 1, arm) == "plant.p_true: bv [N·m·s/rad]"
+    assert plots.entry_name("arm.coulomb", 2, arm) == "arm.coulomb: joint 3"

@@ -13,7 +13,8 @@ from reed_tools.errors import UsageError
 from reed_tools.figures import checks, metrics, plots, report_page, result_table, summary
 from reed_tools.figures.evaluate import evaluate
 from reed_tools.record import signals
-from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, merge, require_whole
+from reed_tools.record.merge import merge
+from reed_tools.record.telemetry_log import DIGEST_CHANNELS, events, load, require_whole
 
 
 def recorded(folder, wanted=(), **options):
@@ -80,7 +81,7 @@ def test_timing_has_no_wake_in_lockstep_and_percentiles_on_the_wall_clock(tmp_pa
 
 
 def test_what_the_machine_took_is_told_with_the_cycles_missed_meanwhile(tmp_path, run):
-    assert run["machine"] is None, "lockstep follows no clock"
+    assert run["machine"] == dict.fromkeys(("stalls", "stood_s", "missed_cycles")), "lockstep follows no clock"
     assert build(recorded(tmp_path, clock="wall"))["machine"] == {"stalls": 1, "stood_s": 0.0031, "missed_cycles": 3}
 
 
@@ -118,7 +119,7 @@ def test_digest_tells_runs_apart_by_one_bit(tmp_path, monkeypatch):
 
 LIMITS = {"impact_peak_N": 9.0, "torque_step_at_switch_percent": 1.25, "missed_cycles_in_row": 3, "missed_cycles": 3, "overruns": 1,
           "faults": 0, "contact_lost_ms": 0, "parameters_outside_box": 0, "estimate_drift_percent": 50.0 * 1000 / 3099,
-          "estimate_drift_ratio": 1.0, "heap_allocations": 0, "frames_lost": 2, "crc_errors": 1,
+          "estimate_drift_ratio": 1.0, "heap_allocations": 0, "truth_dropped": 0, "frames_lost": 2, "crc_errors": 1,
           "force_rms_percent_last_second": 2.5, "contact_force_max_N": 9.0, "contact_force_max_percent_of_desired": 112.5,
           "torque_peak_percent": 26.25, "tip_rms_mm_last_second": 5.0, "force_peak_N_last_second": 0.2,
           "tangential_joint_peak_mrad_last_second": 4.0}
@@ -146,8 +147,8 @@ def test_every_figure_has_a_value_on_a_complete_run(tmp_path):
 def test_a_fault_fails_a_run_that_asks_for_nothing(tmp_path):
     result = build(recorded(tmp_path, fault_at_s=1.5))
     assert result["verdict"] == "fail"
-    assert result["checks"] == [{"name": "faults", "limit": 0, "value": 1, "ok": False},
-                                {"name": "missing_s", "limit": 0, "value": 1.5, "ok": False}]
+    assert result["checks"] == [{"name": "faults", "limit": 0, "value": 1, "ok": False, "why": None},
+                                {"name": "missing_s", "limit": 0, "value": 1.5, "ok": False, "why": "the arm was active for 1.5 of 3 s"}]
     assert result["windows"][-1]["to_s"] == 1.5
 
 

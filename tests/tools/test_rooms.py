@@ -16,6 +16,7 @@ ARROWS = {
     "record": set(),
     "robots": {"show"},
     "figures": {"record", "robots", "show"},
+    "compare": {"figures", "record", "show"},
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},

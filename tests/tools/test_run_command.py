@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import time
@@ -11,7 +12,7 @@ import pytest
 from reed_tools import cli
 from reed_tools.errors import UsageError
 from reed_tools.paths import PYTHON, ROOT
-from reed_tools.run import bus_choice
+from reed_tools.run import bus_choice, origin
 
 BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
 
@@ -68,7 +69,7 @@ def test_a_damaged_run_folder_is_one_line_and_its_result_stays(reed, tmp_path):
     assert "is damaged" in one_line(reed("report", tmp_path), 2)
     log.write_bytes(whole)
     (tmp_path / "effective.toml").write_text("[scenario\n")
-    assert "effective.toml: " in one_line(reed("report", tmp_path), 2)
+    assert "effective.toml is damaged" in one_line(reed("report", tmp_path), 2)
     assert (tmp_path / "summary.json").read_text() == before
 
 
@@ -102,7 +103,26 @@ def test_a_run_folder_holds_everything_and_both_programs_got_the_same_options(re
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["scenario"], summary["arm"], summary["seed"], summary["clock"]) == ("press_known", "a5", 5, "lockstep")
     assert "FAIL" in done.stdout and summary["digest"][:16] in done.stdout
+    assert summary["command"] == f"tools/reed run press_known --seed 5 --bus {BUS} --clock lockstep"
+    assert summary["versions"]["reed"] and len(summary["versions"]["build"]) == 12 and summary["machine"]["cores"] >= 1
+    assert summary["cause"] and summary["cause"] in done.stdout
     assert "\x1b" not in done.stdout  # no terminal: plain lines
+
+
+def test_the_line_that_repeats_a_run_survives_the_shell(tmp_path, monkeypatch):
+    scenario, law = tmp_path / "my own.toml", tmp_path / "law.so"
+    scenario.write_text("")
+    law.write_text("")
+    monkeypatch.chdir(tmp_path)
+
+    class Arguments:
+        arm, law, duration, rate, seed, bus, clock = "a5", "law.so:gain=2", "2.5", None, "7", "auto", "wall"
+        set = ["wall.normal=[0,0,-1]", "scenario.name=\"it's\""]
+
+    Arguments.scenario = scenario.name
+    assert shlex.split(origin.command(Arguments)) == ["tools/reed", "run", str(scenario), "--arm", "a5", "--law", f"{law}:gain=2", "--duration", "2.5", "--seed", "7",
+                                                      "--bus", "auto", "--clock", "wall", "--set", "wall.normal=[0,0,-1]",
+                                                      "--set", "scenario.name=\"it's\""]
 
 
 def test_report_rebuilds_the_same_summary(reed, tmp_path):

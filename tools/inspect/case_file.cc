@@ -59,7 +59,7 @@ Json ToJson(const Value& value) {
 
 }  // namespace
 
-std::vector<NamedValues> ReadCases(std::istream& in) {
+std::vector<Case> ReadCases(std::istream& in) {
   Json file;
   try {
     file = Json::parse(in);
@@ -73,12 +73,15 @@ std::vector<NamedValues> ReadCases(std::istream& in) {
   for (const auto& [name, node] : file.items()) {
     if (name != "cases") Add(name, node, shared);
   }
-  std::vector<NamedValues> cases;
+  std::vector<Case> cases;
   for (const Json& item : file["cases"]) {
     if (!item.is_object()) throw CaseError("cases[" + std::to_string(cases.size()) + "]: expected an object");
-    NamedValues values = shared;
-    for (const auto& [name, node] : item.items()) Add(name, node, values);
-    cases.push_back(std::move(values));
+    Case read{shared, {}};
+    for (const auto& [name, node] : item.items()) {
+      Add(name, node, read.values);
+      if (node.is_number() || node.is_array()) read.names.push_back(name);
+    }
+    cases.push_back(std::move(read));
   }
   return cases;
 }

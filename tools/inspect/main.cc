@@ -6,6 +6,7 @@
 #include "reed/config/schema/arm_file.h"
 #include "reed/inspect/arm_inspector.h"
 #include "reed/inspect/case_file.h"
+#include "reed/inspect/case_names.h"
 #include "reed/inspect/modes_query.h"
 #include "reed/rt/program.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kWrongInput = 2;
 
-std::vector<reed::inspect::NamedValues> Read(const std::string& states) {
+std::vector<reed::inspect::Case> Read(const std::string& states) {
   if (states == "-") return reed::inspect::ReadCases(std::cin);
   std::ifstream file(states);
   if (!file) throw reed::inspect::CaseError("cannot be read");
@@ -28,7 +29,11 @@ int InspectStates(const std::string& arm_name, const std::string& states) {
   try {
     const auto cases = Read(states);
     where += ": cases[";
-    for (const auto& inputs : cases) results.push_back(inspector->Inspect(inputs));
+    for (const auto& inputs : cases) {
+      reed::inspect::NamedValues answer = inspector->Inspect(inputs.values);
+      reed::inspect::RequireKnownNames(inputs.names, answer);
+      results.push_back(std::move(answer));
+    }
   } catch (const reed::inspect::CaseError& error) {
     const bool in_a_case = where.back() == '[';
     std::cerr << where << (in_a_case ? std::to_string(results.size()) + "]." : ": ") << error.what() << '\n';
@@ -49,12 +54,16 @@ int Run(int argc, char** argv) {
   app.add_option("--states", states, "JSON file with {\"cases\": [...]}, or - for standard input");
   app.add_option("--modes", modes, "instead of states: this many modes, with locked motors")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--at", pose, "motor angles for --modes, rad (default: all zero)")->delimiter(',');
+  app.add_option("--at", pose,
+                 "motor angles for --modes or --plot, apart by blanks or commas (default: all zero)")
+      ->type_name("RAD ...")
+      ->delimiter(',');
   app.add_option("--beam", beam,
                  "modes of a clamped beam: length=m,EI=N·m²,rhoA=kg/m[,tip_mass=kg][,elements=N]");
   try {
     app.parse(argc, argv);
     if (arm.empty() == beam.empty()) throw reed::inspect::CaseError("one of --arm and --beam is needed");
+    if (beam.empty() && modes == 0 && !pose.empty()) throw reed::inspect::CaseError("--at needs --modes N");
     if (beam.empty() && modes == 0) return InspectStates(arm, states);
     if (modes == 0) throw reed::inspect::CaseError("--beam needs --modes N");
     if (beam.empty()) {

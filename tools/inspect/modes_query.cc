@@ -83,6 +83,7 @@ void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vect
     if (std::ssize(q) != arm.dof())
       throw CaseError("--at: expected " + std::to_string(arm.dof()) + " angles in rad");
     motors = Eigen::Map<const Eigen::VectorXd>(q.data(), std::ssize(q));
+    if (!motors.allFinite()) throw CaseError("--at: expected finite angles in rad");
   }
   plant::ArmModes bent(arm, PlantConfig{}, motors);
   bent.Load(Eigen::Vector3d::Zero(), true);

@@ -15,6 +15,7 @@ COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
     "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
     "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
+    "compare": ("compare.command", "two or more runs, or campaigns, beside each other: differences first"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),

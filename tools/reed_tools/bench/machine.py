@@ -1,9 +1,10 @@
 """What machine a benchmark ran on, and what else kept it busy meanwhile."""
 
 import os
-import platform
 import time
 from pathlib import Path
+
+from reed_tools.record.machine import description
 
 BUSY, STOLEN = 0.10, 0.01  # shares from which figures are not to be trusted
 LOOK_S = 1.0
@@ -18,13 +19,7 @@ class Machine:
     """Looks for a second at what others do before anything is measured; finish() looks at what was stolen and done by others."""
 
     def __init__(self) -> None:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-        self.cpu = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
-        self.cores, self.kernel = len(os.sched_getaffinity(0)), platform.release()
-        self.realtime = Path("/sys/kernel/realtime").exists()
-        self.virtual = any("hypervisor" in line.split() for line in lines if line.startswith("flags"))
-        governor = Path("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")
-        self.governor = governor.read_text().strip() if governor.exists() else "unknown"
+        self.what = description()
         first = jiffies()
         time.sleep(LOOK_S)
         self.start, self.started = jiffies(), os.times()
@@ -51,10 +46,10 @@ class Machine:
         return ", ".join(found)
 
     def text(self) -> str:
-        return (f"{self.cpu}, {self.cores} cores{', virtual' if self.virtual else ''}, kernel {self.kernel}"
-                f"{' PREEMPT_RT' if self.realtime else ''}, governor {self.governor}")
+        what = self.what
+        return (f"{what['cpu']}, {what['cores']} cores{', virtual' if what['virtual'] else ''}, kernel {what['kernel']}"
+                f"{' PREEMPT_RT' if what['preempt_rt'] else ''}, governor {what['governor']}")
 
     def as_json(self) -> dict:
-        return {"cpu": self.cpu, "cores": self.cores, "kernel": self.kernel, "preempt_rt": self.realtime, "virtual": self.virtual,
-                "governor": self.governor, "busy_before": self.busy_before, "others": self.others, "stolen": self.stolen,
+        return {**self.what, "busy_before": self.busy_before, "others": self.others, "stolen": self.stolen,
                 "noisy": bool(self.noise())}

@@ -4,15 +4,16 @@ import json
 import os
 import re
 import shutil
+import tempfile
 from contextlib import ExitStack
 from pathlib import Path
 
-from reed_tools import folders
+from reed_tools import folders, versions
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
-from reed_tools.campaign.workers import Workers, build_id, free_bus
+from reed_tools.campaign.workers import Workers, free_bus
 from reed_tools.errors import RunError, UsageError
-from reed_tools.run import bus_choice
+from reed_tools.run import bus_choice, scenario
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
 OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
@@ -49,7 +50,7 @@ def run(arguments) -> int:
     print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
     bus_choice.require_multicast_route()
     with ExitStack() as stack:
-        build, buses = build_id(), [free_bus(stack) for _ in range(jobs)]
+        build, buses = versions.build(), [free_bus(stack) for _ in range(jobs)]
         interrupted = run_pending(folder, campaign, pending, buses, build, finished)
         records = [finished[index] for index in indices if index in finished]
         repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, buses, build)
@@ -138,6 +139,11 @@ def run_again(campaign: Campaign, records: list, count: int, buses: list[str], b
         return list(workers.records())
 
 
+def arm_of(campaign: Campaign) -> dict:
+    with tempfile.TemporaryDirectory() as scratch:
+        return scenario.write_effective(campaign.scenario, None, campaign.fixed, Path(scratch, "effective.toml"))["arm"]
+
+
 def conclude(folder: Path, campaign: Campaign, wanted: int, records: list, repeats: list, interrupted: bool) -> int:
     if not records:
         raise UsageError("interrupted before the first draw was done") if interrupted else RunError("no draw came to its end")
@@ -147,7 +153,8 @@ def conclude(folder: Path, campaign: Campaign, wanted: int, records: list, repea
     summary = results.build(campaign, records, wanted, verdict)
     results.write(folder, summary)
     junit.write(folder, campaign, records, verdict)
-    path = page.write(folder, summary, (folder / "campaign.toml").read_text(), plots.draw_all(folder, campaign, records))
+    pictures = plots.draw_all(folder, campaign, records, arm_of(campaign))
+    path = page.write(folder, summary, (folder / "campaign.toml").read_text(), pictures)
     table.show(summary)
     print(f"report  {path}")
     died = [record for record in records if record.status == "died"]

@@ -7,16 +7,17 @@ import numpy as np
 from reed_tools.campaign import results
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
+from reed_tools.figures.parameter_units import unit_of
 from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plt, set_margins, ticker
 
 BINS = 30
 SHOWN_RATIO = 3.0   # figures beyond so many limits are drawn at the right edge
 
 
-def draw_all(folder: Path, campaign: Campaign, records: list[Record]) -> list[Path]:
+def draw_all(folder: Path, campaign: Campaign, records: list[Record], arm: dict) -> list[Path]:
     made = []
     with plt.rc_context(STYLE):
-        for name, figure in (("distributions", distributions(campaign, records)), ("causes", causes(campaign, records))):
+        for name, figure in (("distributions", distributions(campaign, records)), ("causes", causes(campaign, records, arm))):
             if figure is not None:
                 made.append(folder / f"{name}.png")
                 figure.savefig(made[-1])
@@ -53,20 +54,28 @@ def distributions(campaign: Campaign, records: list[Record]):
     return figure
 
 
-def drawn_numbers(campaign: Campaign, records: list[Record]) -> dict[str, np.ndarray]:
+def entry_name(key: str, position: int, arm: dict) -> str:
+    """An entry of a drawn list by the name of what it belongs to: a structural parameter, or a joint."""
+    names = arm["param_names"]
+    if key in ("plant.p_true", *(f"arm.p_{end}" for end in ("true", "nom", "lo", "hi"))) and position < len(names):
+        return f"{key}: {names[position]} [{unit_of(arm, names[position])}]"
+    return f"{key}: joint {position + 1}" if position < len(arm["dh"]) else f"{key}: {position + 1}"
+
+
+def drawn_numbers(campaign: Campaign, records: list[Record], arm: dict) -> dict[str, np.ndarray]:
     """One row of numbers per drawn quantity; seeds and words go along with nothing."""
     columns: dict[str, list[float]] = {}
     for record in records:
         for key, value in campaign.values(record.index).items():
             for position, entry in enumerate(value if isinstance(value, list) else [value]):
                 if isinstance(entry, float):
-                    columns.setdefault(f"{key}.{position}" if isinstance(value, list) else key, []).append(entry)
+                    columns.setdefault(entry_name(key, position, arm) if isinstance(value, list) else key, []).append(entry)
     return {key: np.array(column) for key, column in columns.items()}
 
 
-def causes(campaign: Campaign, records: list[Record]):
+def causes(campaign: Campaign, records: list[Record], arm: dict):
     """The worst ratio of every draw against each number that was drawn."""
-    quantities = drawn_numbers(campaign, records)
+    quantities = drawn_numbers(campaign, records, arm)
     if not quantities:
         return None
     ratios = np.array([record.ratio for record in records])
@@ -74,13 +83,14 @@ def causes(campaign: Campaign, records: list[Record]):
     columns = 3
     rows = -(-len(quantities) // columns)
     figure, axes = plt.subplots(rows, columns, sharey=True, squeeze=False, figsize=(WIDTH_IN, 1.7 * rows + 0.6))
-    set_margins(figure, top_in=0.5, hspace=0.65, wspace=0.08)
+    set_margins(figure, top_in=0.5, hspace=0.65, wspace=0.14)
     for axis, (key, column) in zip(axes.flat, quantities.items()):
         for rows_shown, colour, mark in ((ratios <= 1, COLOURS[0], "."), (ratios > 1, COLOURS[1], "x")):
             axis.plot(column[rows_shown], bounded[rows_shown], mark, color=colour, markersize=4)
         axis.axhline(1.0, color=COLOURS[1], linestyle="--", linewidth=0.9)
-        axis.set_xlabel(key)
-        axis.xaxis.set_major_locator(ticker.MaxNLocator(4))
+        axis.set_xlabel(key, fontsize=8)
+        axis.xaxis.set_major_locator(ticker.MaxNLocator(3))
+        axis.tick_params(axis="x", labelsize=8)
         axis.set_ylim(0.0, max(1.1, 1.05 * bounded.max()))
     for axis in list(axes.flat)[len(quantities):]:
         axis.set_axis_off()

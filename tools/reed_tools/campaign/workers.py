@@ -1,6 +1,5 @@
 """Draws run side by side: one worker process per core, each with a bus of its own; results come back as records."""
 
-import hashlib
 import multiprocessing
 import os
 import queue
@@ -18,12 +17,6 @@ PORTS = range(45100, 45900)
 START_S = 60.0      # from the first SYNC to an active arm, at most
 STOPPED, REFUSED = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 POLL_S = 0.2
-
-
-def build_id() -> str:
-    """Of the two programs: draws of different builds need not be equal."""
-    content = b"".join(program(name).read_bytes() for name in ("reed_firmware", "reed_plant_sim"))
-    return hashlib.sha256(content).hexdigest()[:12]
 
 
 def free_bus(stack) -> str:

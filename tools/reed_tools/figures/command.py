@@ -1,23 +1,29 @@
 """tools/reed report RUN_DIR: figures, plots and page from what a run folder holds."""
 
 from reed_tools import folders
-from reed_tools.errors import UsageError
+from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import result_table
 from reed_tools.figures.evaluate import evaluate
-from reed_tools.record.telemetry_log import require_whole
+from reed_tools.record import run_folder, telemetry_log
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("run_dir", metavar="RUN_DIR", type=folders.argument, help="a folder that tools/reed run wrote")
+    parser.add_argument("run_dir", metavar="RUN_DIR", type=folders.argument, help="a folder that tools/reed run wrote, also one whose run was cut short")
 
 
 def run(arguments) -> int:
     folder = arguments.run_dir
-    for name in ("effective.toml", "telemetry.lcmlog"):
-        if not (folder / name).is_file():
+    for name, there in ((run_folder.CONFIGURATION, (folder / run_folder.CONFIGURATION).is_file()), (run_folder.TELEMETRY, run_folder.logs(folder))):
+        if not there:
             raise UsageError(f"{folder} is not a run folder: it has no {name}")
-    require_whole(folder / "telemetry.lcmlog")
-    summary = evaluate(folder)
+    run_folder.require_ended(folder)
+    problem = run_folder.complete(folder)
+    run_folder.verify(folder)
+    if (folder / run_folder.TELEMETRY).is_file():
+        telemetry_log.require_whole(folder / run_folder.TELEMETRY)
+    summary, unwritten = evaluate(folder)
     result_table.show(summary)
+    if problem := problem or unwritten:
+        raise RunError(problem)
     print(f"report  {folder / 'report.html'}")
     return 0 if summary["verdict"] == "pass" else 1

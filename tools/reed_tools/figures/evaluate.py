@@ -3,16 +3,21 @@
 from pathlib import Path
 
 from reed_tools.figures import report_page, summary
-from reed_tools.record import configuration
+from reed_tools.record import configuration, run_folder
 from reed_tools.record.telemetry_log import load
 
 
-def evaluate(folder: Path) -> dict:
-    recording = load(folder / "telemetry.lcmlog")
+def evaluate(folder: Path) -> tuple[dict, str | None]:
+    """The figures, and in one line why they could not be kept in the folder."""
+    recording = load(*run_folder.logs(folder))
     figures, signals = summary.build(folder, recording)
-    summary.write(folder, figures)
-    from reed_tools.figures import plots  # matplotlib takes half a second: not before the numbers are safe
+    try:
+        summary.write(folder, figures)
+        from reed_tools.figures import plots  # matplotlib takes half a second: not before the numbers are safe
 
-    pictures = plots.draw_all(folder, recording, signals, configuration.load(folder / "effective.toml"), figures)
-    report_page.write(folder, figures, pictures)
-    return figures
+        effective = configuration.load(folder / run_folder.CONFIGURATION)
+        pictures = plots.draw_all(folder, recording, signals, effective, figures)
+        report_page.write(folder, figures, pictures)
+    except OSError as error:
+        return figures, f"{error.filename}: {(error.strerror or str(error)).lower()}; the records are kept, `tools/reed report {folder}` makes the rest"
+    return figures, None

@@ -11,7 +11,7 @@ SMALLEST = 1e-6          # of V's largest value: parts below it are not drawn
 def draw(top, bottom, book: Bookkeeping) -> None:
     largest = float(np.max(book.V))
     floor = max(SMALLEST * largest, 1e-12)
-    top.semilogy(book.t, np.maximum(book.V, floor), color="black", label="V")
+    top.semilogy(book.t, np.maximum(book.V, floor), color="black", linewidth=2.6, alpha=0.45, label="V")  # seen under its largest part
     for (name, part), colour in zip(book.parts.items(), COLOURS):
         if np.max(part) > floor:
             top.semilogy(book.t, np.maximum(part, floor), color=colour, linewidth=0.8, label=name)

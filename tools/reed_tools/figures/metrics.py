@@ -66,11 +66,6 @@ def windows(signals: Signals | None, rate_hz: float) -> list[dict]:
     return result
 
 
-def last_second(signals: Signals, rate_hz: float) -> np.ndarray:
-    end = float(signals.t[-1]) + 1.0 / rate_hz
-    return in_window(signals, end - 1.0, end, rate_hz)
-
-
 def timing_us(recording: Recording, clock: str) -> dict:
     """Percentiles of each phase. Waking up has no meaning where nothing sleeps."""
     table = recording.tables["REED_TIMING"]
@@ -85,13 +80,19 @@ def timing_us(recording: Recording, clock: str) -> dict:
     return result
 
 
+def zero_cycle(recording: Recording) -> int:
+    """Where t = 0: the arm became active, or, if it never did, the record begins."""
+    control = recording.tables["REED_CONTROL"]
+    active = np.flatnonzero(control["mode"] == ACTIVE)
+    return int(control["cycle"][active[0] if len(active) else 0]) if len(control["cycle"]) else 0
+
+
 def modes(recording: Recording, rate_hz: float) -> list[dict]:
     """Every change of mode or of the law in charge; t = 0 is where the arm became active (negative before)."""
     control = recording.tables["REED_CONTROL"]
     if not recording.has("REED_CONTROL"):
         return []
-    active = np.flatnonzero(control["mode"] == ACTIVE)
-    zero = control["cycle"][active[0]] if len(active) else control["cycle"][0]
+    zero = zero_cycle(recording)
     state = np.stack([control["mode"], control["force_source"]], axis=1)
     changed = np.flatnonzero(np.any(np.diff(state, axis=0, prepend=-1) != 0, axis=1))
     return [{"t_s": round(float((control["cycle"][k] - zero) / rate_hz), 6), "mode": MODES[state[k, 0]],

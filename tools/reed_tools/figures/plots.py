@@ -4,9 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools.figures import lyapunov, lyapunov_plot
-from reed_tools.record.signals import SOURCES, Signals
+from reed_tools.figures import lyapunov, lyapunov_plot, marks
+from reed_tools.figures.parameter_units import unit_of
+from reed_tools.record.signals import Signals
 from reed_tools.record.telemetry_log import Recording
+from reed_tools.record.whole_file import replacing
 from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins, ticker
 
 TIME = "time since the arm became active [s]"
@@ -28,22 +30,13 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
         for name, figure in figures:
             if figure is None:
                 continue
-            mark_switches(figure, signals, name)
-            figure.savefig(folder / f"{name}.png")
+            if name != "timing":
+                marks.draw(figure, signals, summary["reason"])
+            with replacing(folder / f"{name}.png") as file:
+                figure.savefig(file, format="png")
             plt.close(figure)
             made.append(folder / f"{name}.png")
     return made
-
-
-def mark_switches(figure, signals: Signals | None, name: str) -> None:
-    """A dashed line where the law in charge changed."""
-    if signals is None or name == "timing":
-        return
-    for k in np.flatnonzero(np.diff(signals.source) != 0)[:12]:
-        for axis in figure.axes:
-            axis.axvline(signals.t[k + 1], color="0.4", linewidth=0.8, linestyle="--", zorder=0)
-        figure.axes[0].annotate(f"law: {SOURCES[signals.source[k + 1]]}", (signals.t[k + 1], 1.0), fontsize=7,
-                                xycoords=("data", "axes fraction"), xytext=(2, 1), textcoords="offset points")
 
 
 def joint_error(signals: Signals):
@@ -51,9 +44,12 @@ def joint_error(signals: Signals):
     for j in range(signals.dof):
         whole.plot(signals.t, 1e3 * signals.joint_error[:, j], label=f"joint {j + 1}")
         tangential.plot(signals.t, 1e3 * signals.tangential_joint[:, j])
+    marks.draw_reversals(whole, signals, 1e3 * signals.joint_error, COLOURS)
     whole.set_title("Joint error: planned reference − motor angle", loc="left")
-    whole.set_ylabel("joint error [mrad]")
-    tangential.set_ylabel("tangential part [mrad]")
+    if signals.has_wall:
+        tangential.set_title("without the part along D, by which the force loop leaves the plan on purpose", loc="left", fontsize=8)
+    label_left(whole, "joint error [mrad]")
+    label_left(tangential, "tangential part [mrad]")
     tangential.set_xlabel(TIME)
     legend_right(figure, whole)
     return figure
@@ -66,7 +62,7 @@ def tip_error(signals: Signals):
     axis.plot(signals.t, 1e3 * np.linalg.norm(signals.tangential_tip, axis=1), color="black", linestyle=":",
               label="|tangential|")
     axis.set_title("Tip error: true bent tip − planned tip, base axes", loc="left")
-    axis.set_ylabel("tip error [mm]")
+    label_left(axis, "tip error [mm]")
     axis.set_xlabel(TIME)
     legend_right(figure, axis)
     return figure
@@ -78,10 +74,10 @@ def force(signals: Signals):
     axis.plot(signals.t, signals.force_true, color="#D55E00", label="true")
     axis.plot(signals.t, signals.force_desired, color="black", linestyle="--", label="desired")
     axis.set_title("Normal force of the wall on the robot", loc="left")
-    axis.set_ylabel("force [N]")
+    label_left(axis, "force [N]")
     legend_right(figure, axis)
     error.plot(signals.t, signals.force_desired - signals.force_true, color="#D55E00")
-    error.set_ylabel("desired − true [N]")
+    label_left(error, "desired − true [N]")
     error.set_xlabel(TIME)
     return figure
 
@@ -97,6 +93,7 @@ def torque(signals: Signals, limits: list[float]):
                 axis.axhline(sign * limits[j], color="0.3", linestyle="--", linewidth=0.8)
         axis.set_title(f"limit ±{limits[j]:g} N·m, largest {100 * used:.0f} % of it", loc="right", fontsize=8)
         label_left(axis, f"joint {j + 1}\n[N·m]")
+        axis.yaxis.set_major_locator(ticker.MaxNLocator(3))
     figure.suptitle("Commanded torque; dashed where it comes near: the drive's limit", x=0.01, ha="left", fontsize=10)
     axes[-1].set_xlabel(TIME)
     return figure
@@ -117,12 +114,10 @@ def parameters(signals: Signals, arm: dict):
         axis.axhspan(arm["p_lo"][k], arm["p_hi"][k], color="0.92", zorder=-1, label="box")
         axis.axhline(arm["p_true"][k], color="black", linestyle="--", linewidth=0.9, label="truth")
         axis.plot(signals.t, signals.p_hat[:, k], color=COLOURS[0], label="estimate")
-        axis.set_title(arm["param_names"][k], loc="left")
+        axis.set_title(f"{arm['param_names'][k]} [{unit_of(arm, arm['param_names'][k])}]", loc="left")
         if k + columns >= count:
             axis.set_xlabel("time [s]")
             axis.tick_params(labelbottom=True)
-    for row in axes:
-        row[0].set_ylabel("value [SI]")
     figure.suptitle("Structural parameters as the controller estimates them", x=0.01, ha="left", fontsize=10)
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper right", ncols=3)
     return figure
@@ -136,8 +131,8 @@ def bookkeeping(signals: Signals, effective: dict):
     lyapunov_plot.draw(top, bottom, book)
     legend_right(figure, top, bottom)
     top.set_title("Stability: V of " + ("(42)" if book.force_known else "(45)") + ", from the plant's truth", loc="left")
-    top.set_ylabel("V [J]")
-    bottom.set_ylabel("V̇ [W]")
+    label_left(top, "V [J]")
+    label_left(bottom, "V̇ [W]")
     bottom.set_xlabel(TIME)
     return figure
 
@@ -161,6 +156,7 @@ def timing(recording: Recording, summary: dict):
         axis.set_title(f"p50 {figures['p50']:.1f}   p99 {figures['p99']:.1f}   max {figures['max']:.0f} µs", loc="right", fontsize=8)
         axis.set_xscale("log")
         axis.set_yscale("log")
+        axis.yaxis.set_major_locator(ticker.LogLocator(numticks=4))
         axis.yaxis.set_minor_locator(ticker.NullLocator())
         axis.set_ylim(bottom=0.7)
         label_left(axis, f"{name}\n[cycles]")

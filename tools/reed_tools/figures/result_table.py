@@ -8,9 +8,10 @@ from reed_tools.text import plain
 
 
 def checks(summary: dict) -> Table:
-    table = grid("checks", "figure", "value", "limit", "")
+    table = grid("checks", "figure", "value", "limit", "", "")
     for check in summary["checks"]:
-        table.add_row(check["name"], number(check["value"]), number(check["limit"]), mark(check["ok"]))
+        table.add_row(check["name"], number(check["value"]), number(check["limit"]), mark(check["ok"]), plain(check["why"] or ""))
+    table.columns[-1].justify = "left"
     return table
 
 
@@ -38,7 +39,7 @@ LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware 
 
 def lines(summary: dict) -> list[str]:
     """What does not fit a table."""
-    bus, loop, machine = summary["bus"], summary["loop"], summary.get("machine")
+    bus, loop, machine = summary["bus"], summary["loop"], summary["machine"]
     wire = number(bus["wire_load_percent"], 3)
     speed = f", {summary['sim_s'] / summary['wall_s']:.1f}× real time" if summary["wall_s"] else ""
     return [
@@ -48,7 +49,7 @@ def lines(summary: dict) -> list[str]:
         f"clock  {summary['clock']}, {summary['rate_hz']:g} Hz, {summary['cycles']} cycles, {number(summary['missed_cycles'])} missed, "
         f"{number(summary['overruns'])} overruns{speed}",
         *([f"stalls {machine['stalls']} of the machine, {1e3 * machine['stood_s']:.0f} ms in all, {machine['missed_cycles']} of the missed "
-           "cycles: the arm's clock stood still"] if machine and machine["stalls"] else []),
+           "cycles: the arm's clock stood still"] if machine["stalls"] else []),
         f"loop   {number(loop['heap_allocations'])} heap allocations, {number(loop['page_faults'])} page faults, "
         f"{number(loop['telemetry_dropped'])} snapshots dropped; "
         f"scheduler {loop['scheduler'] or 'unknown'}, memory {LOCKED[loop['memory_locked']]}",
@@ -61,9 +62,10 @@ def show(summary: dict) -> None:
     out.print(windows(summary))
     out.print(timing(summary))
     for line in lines(summary):
-        out.print(line, soft_wrap=True, highlight=False)
+        out.print(line, soft_wrap=True, highlight=False, markup=False)
     out.print()
     out.print(checks(summary))
     passed = summary["verdict"] == "pass"
+    cause = f"   {summary['cause']}" if summary["cause"] else ""
     out.print(plain(f"{summary['scenario']} on {summary['arm']}: "), Text(summary["verdict"].upper(), f"bold {'green' if passed else 'red'}"),
-              f"   digest {summary['digest'][:16]}", sep="", highlight=False)
+              plain(f"{cause}   digest {summary['digest'][:16]}"), sep="", highlight=False, soft_wrap=True)

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools.figures import checks, metrics
-from reed_tools.record import configuration
+from reed_tools.figures import checks, events, metrics
+from reed_tools.figures.run_data import RunData
+from reed_tools.record import configuration, run_folder
 from reed_tools.record.signals import Signals, join
 from reed_tools.record.telemetry_log import Recording
+from reed_tools.record.whole_file import write_text
 
 SCHEMA = 1
 
@@ -20,6 +22,12 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
     run, rate_hz = recording.run, effective["timing"]["rate_hz"]
     clock = run.clock if run else None
     verdicts = checks.evaluate(effective["checks"], run_data(effective, recording, signals))
+    happened = events.of_run(recording, rate_hz)
+    reason = events.reason(happened)
+    for check in verdicts:
+        if check["name"] == "faults" and not check["ok"] and reason:
+            check["why"] = events.in_words(reason)
+    origin = run_folder.origin(folder)
     arm = effective["arm"]
     summary = {
         "schema": SCHEMA,
@@ -30,24 +38,29 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "law": effective["control"]["law"],
         "config_sha256": hashlib.sha256((folder / "effective.toml").read_bytes()).hexdigest(),
         "verdict": "pass" if all(check["ok"] for check in verdicts) else "fail",
+        "reason": reason,
+        "cause": events.cause(reason, verdicts),
         "checks": verdicts,
         "bus": bus(recording),
         **clock_figures(recording, rate_hz),
-        "machine": machine(recording, clock),
+        "machine": {**(origin["machine"] or {}), **stalls(recording, clock)},
         "timing_us": metrics.timing_us(recording, clock),
         "loop": {name: getattr(recording.finished_run, name, None) for name in
                  ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
+        "events": happened,
         "modes": metrics.modes(recording, rate_hz),
         "windows": metrics.windows(signals, rate_hz),
         "parameters": metrics.parameters(recording, [
             {"name": name, "truth": truth} for name, truth in zip(arm["param_names"], arm["p_true"])]),
+        "versions": origin["versions"] or dict.fromkeys(("reed", "commit", "build")),
+        "command": origin["command"],
         "digest": recording.digest(clock),
     }
     return summary, signals
 
 
-def run_data(effective: dict, recording: Recording, signals: Signals | None) -> checks.RunData:
-    return checks.RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
+def run_data(effective: dict, recording: Recording, signals: Signals | None) -> RunData:
+    return RunData(recording, signals, effective["timing"]["rate_hz"], effective["arm"]["torque_limit"],
                           configuration.parameter_boxes(effective), configuration.sigma_limits(effective), effective["scenario"]["duration_s"])
 
 
@@ -70,18 +83,18 @@ def clock_figures(recording: Recording, rate_hz: float) -> dict:
             "wall_s": round(recording.finished_run.wall_s, 6) if recording.finished_run else None, "sim_s": round(count / rate_hz, 6)}
 
 
-def machine(recording: Recording, clock: str | None) -> dict | None:
+def stalls(recording: Recording, clock: str | None) -> dict:
     """What the machine took from the run: how often it ran neither program, for how long the arm's clock stood still with them,
     and the cycles missed meanwhile. None where no clock is followed."""
     timing, plant = recording.tables["REED_TIMING"], recording.tables["REED_PLANT"]
     if clock != "wall" or not recording.has("REED_TIMING") or not recording.has("REED_PLANT"):
-        return None
-    # A stall before the cycle is told in its own answer, one behind the answer in the next cycle's.
-    told = timing["clock_stood"].astype(bool)
-    away = told | np.append(told[1:], False)
+        return dict.fromkeys(("stalls", "stood_s", "missed_cycles"))
+    # A stall before the cycle is reported in its own answer, one behind the answer in the next cycle's.
+    reported = timing["clock_stood"].astype(bool)
+    away = reported | np.append(reported[1:], False)
     return {"stalls": int(plant["stalls"][-1]), "stood_s": round(float(plant["stood_s"][-1]), 6),
             "missed_cycles": int(np.diff(timing["missed"], prepend=0)[away].sum())}
 
 
 def write(folder: Path, summary: dict) -> None:
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(folder / "summary.json", json.dumps(summary, indent=2, allow_nan=False) + "\n")

@@ -21,20 +21,21 @@ PANELS = {
                 "Compensation sets in at about 0.1 s (region 1); the signal becomes smooth as adaptation and sliding mode act (region 2); "
                 "at first the proportional part dominates, later the adaptation takes over (region 3).",
                 "Commanded torque per joint; dashed: the paper's 0.1 s. Gravity is held from the first instant on here, so the level at "
-                "t = 0 is that of the arm's weight as far as the law knows it."),
+                "t = 0 is that of the arm's weight as far as the law knows it. Lines: mean over 10 ms; shade: range within them."),
     "11": Panel("11", "Parameter adaptation, known force",
                 "Six parameters, first compensated by the proportional part, then fluctuating about fixed values.",
                 "Estimates p̂ of the structural parameters. They are not expected to reach the truth: on this path nothing excites them "
                 "enough, and s → 0 is all that (44) promises."),
     "12": Panel("12", "Control input, unknown force, Cartesian space",
                 "Smooth input by the adaptive sliding mode; the lag of the sliding mode leaves nonlinear fluctuations that it cannot remove.",
-                "The paper does not say how torques become a Cartesian input: here the tip force (J Jᵀ)⁻¹ J U, Cartesian reference."),
+                "The paper does not say how torques become a Cartesian input: here the tip force (J Jᵀ)⁻¹ J U, Cartesian reference. "
+                "Lines: mean over 10 ms; shade: range within them."),
     "13": Panel("13", "Control input, unknown force, configuration space",
                 "σ̂₀ s + σ̂₁ sgn(s) keeps the system robust; the error function converges onto the sliding surface.",
-                "Joint reference. Top: torques. Bottom: ‖s‖, the distance from the sliding surface."),
+                "Joint reference. Top: torques, as in Fig. 12. Bottom: ‖s‖, the distance from the sliding surface."),
     "14": Panel("14", "Parameter adaptation, unknown force, Cartesian space",
                 "A worst case with large fluctuations; all estimates bounded and finally settled.",
-                "Cartesian reference. Left the paper's bounds η̂ from η(0) on, right the robust law's p̂; below σ̂₀ and σ̂₁. The quantities "
+                "Cartesian reference. Left the paper's bounds η̂ from η(0) on, right p̂ of `separated`; below σ̂₀ and σ̂₁. The quantities "
                 "differ, so each side has its own scale."),
     "15": Panel("15", "Parameter adaptation, unknown force, configuration space",
                 "As Fig. 14: bounded and finally settled.", "The same with a joint reference."),
@@ -55,12 +56,12 @@ SCOPE = ("The paper prints no lengths, masses, stiffnesses or trajectories and i
          "columns of a figure share their axes unless said otherwise.")
 PAPER_GAINS = ("K_d = 10, Λ = 5, Γ = 0.05 known and 0.015 unknown, ς = 0.015, η(0) = [.8 .2 .2 .8 .8 .8], equations corrected so "
                "that they can run (docs/control_law.md); as printed, the law appears in the comparison of laws.")
-FAIR = ("“Fixed nominal parameters” has the robust law's gains and force loop and learns nothing; its normal speed limit is 200 instead of "
+FAIR = ("“Fixed nominal parameters” has the gains and the force loop of `separated` and learns nothing; its normal speed limit is 200 instead of "
         "30 mm/s in the known-force case, without which it would not reach the wall in time.")
 BOOKKEEPING = {
     "known": "From the plant's truth. The equations are those of a rigid arm without Coulomb friction; the run has a bending arm with "
              "it, so V settles where they balance. Each side has its own scale.",
     "unknown": "d₀ is the largest push of the run in joint space, σ₁ = d₀. The paper's law needs σ̂₁ to reach it and would take minutes; "
-               "the robust law bounds σ̂₁ far below it and lives by K_d and by adaptation: where σ̂₁ stands still at its bound, (46) "
+               "`separated` bounds σ̂₁ far below it and lives by K_d and by adaptation: where σ̂₁ stands still at its bound, (46) "
                "promises nothing and V rises and falls with the push. Each side has its own scale.",
 }

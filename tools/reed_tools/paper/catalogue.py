@@ -33,8 +33,8 @@ def known() -> list[Experiment]:
             of_law("known", "press_known", "fixed_nominal", "fixed nominal parameters, same force loop", *FAIR_LIMIT),
             of_law("known", "press_known", "paper_printed", "paper, as printed"),
             of_law("known", "press_known", "paper_corrected", "paper, corrected"),
-            of_law("known", "press_known", "separated", "robust"),
-            Experiment("known/observer", "robust, observer instead of the sensor", "press_no_sensor")]
+            of_law("known", "press_known", "separated", "separated"),
+            Experiment("known/observer", "separated, observer instead of the sensor", "press_no_sensor")]
 
 
 def unknown() -> list[Experiment]:
@@ -43,15 +43,15 @@ def unknown() -> list[Experiment]:
             ("fixed_nominal", "fixed nominal parameters"), ("paper_printed", "paper, as printed"),
             ("paper_corrected", "paper, corrected"))
     return [*(of_law("unknown", "fluctuating_unknown", *law) for law in laws),
-            of_law("unknown", "fluctuating_unknown", "separated", "robust", *NO_OBSERVER),
-            Experiment("unknown/observer", "robust + observer", "fluctuating_unknown")]
+            of_law("unknown", "fluctuating_unknown", "separated", "separated", *NO_OBSERVER),
+            Experiment("unknown/observer", "separated + observer", "fluctuating_unknown")]
 
 
 def joint_space() -> list[Experiment]:
     """The same with a reference in configuration space."""
     return [of_law("joint", "fluctuating_unknown", "paper_corrected", "paper, corrected", *JOINT_REFERENCE),
-            of_law("joint", "fluctuating_unknown", "separated", "robust", *NO_OBSERVER, *JOINT_REFERENCE),
-            Experiment("joint/observer", "robust + observer", "fluctuating_unknown", JOINT_REFERENCE)]
+            of_law("joint", "fluctuating_unknown", "separated", "separated", *NO_OBSERVER, *JOINT_REFERENCE),
+            Experiment("joint/observer", "separated + observer", "fluctuating_unknown", JOINT_REFERENCE)]
 
 
 def everything() -> list[Experiment]:

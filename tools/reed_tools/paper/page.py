@@ -9,11 +9,11 @@ from reed_tools.paper.runs import Result
 from reed_tools.show.html_parts import STYLE, Markup, table
 from reed_tools.show.tables import number
 
-PAPER, ROBUST = "paper_corrected", "separated"
-SECONDS = ["0–1 s", "1–2 s", "2–3 s"]
+PAPER, SEPARATED = "paper_corrected", "separated"
+SECONDS = [Markup(f"<span class=one>{k}–{k + 1} s</span>") for k in range(3)]
 EXTRA_STYLE = """
-section{margin-top:2.2rem} figure{margin:0} dt{font-weight:600;margin-top:.4rem} dd{margin:0 0 .3rem 0}
-.better{color:#00703c;font-weight:600} .worse{color:#b00020} .note{color:#555;font-size:13px}
+body{max-width:66rem} section{margin-top:2.2rem} figure{margin:0} dt{font-weight:600;margin-top:.4rem} dd{margin:0 0 .3rem 0}
+.better{color:#00703c;font-weight:600} .worse{color:#b00020} .one{white-space:nowrap} .note{color:#555;font-size:13px}
 """
 
 
@@ -22,7 +22,7 @@ class Page:
         self.by_key = {result.experiment.key: result for result in results}
 
     def pair(self, group: str) -> tuple[Result, Result]:
-        return self.by_key[f"{group}/{PAPER}"], self.by_key[f"{group}/{ROBUST}"]
+        return self.by_key[f"{group}/{PAPER}"], self.by_key[f"{group}/{SEPARATED}"]
 
     def group(self, name: str) -> list[Result]:
         return [result for key, result in self.by_key.items() if key.startswith(name + "/")]
@@ -65,7 +65,7 @@ def panel(figure: str, draw, results, folder: Path) -> str:
     data = pictures.png(draw, results)
     (folder / f"figure{figure}.png").write_bytes(data)
     sides = "".join(f"<dt>{side}</dt><dd>{values_of(result)}</dd>" for side, result in
-                    zip(("Reed, paper's gains", "Reed, robust gains"), results))
+                    zip(("Reed, paper's gains", "Reed, separated"), results))
     return (f'<section id="figure{figure}"><h2>Fig. {figure}: {html.escape(text.title)}</h2>'
             f'<figure><img alt="Fig. {figure}" src="{pictures.inline(data)}"></figure>'
             f'<p class="note">{html.escape(text.read)}</p>'
@@ -86,7 +86,7 @@ def phase_table(results: list[Result]) -> str:
 
 
 def marked(value: float | None, best: float | None) -> str:
-    """The last second beside the robust law's: better than it is said as loudly as worse."""
+    """The last second beside that of the law `separated`: better than it is said as loudly as worse."""
     text = times(value, best)
     if value is None or best is None:
         return text if value is not None else Markup(f'<span class="worse">{text}</span>')
@@ -94,9 +94,9 @@ def marked(value: float | None, best: float | None) -> str:
 
 
 def comparison(results: list[Result], with_force: bool) -> str:
-    robust = next(result for result in results if result.experiment.key.endswith("/" + ROBUST))
-    best_joint = joint_by_second(robust.signals, rate(robust), with_force)[-1]
-    best_force = force_by_second(robust.signals, rate(robust))[-1]
+    separated = next(result for result in results if result.experiment.key.endswith("/" + SEPARATED))
+    best_joint = joint_by_second(separated.signals, rate(separated), with_force)[-1]
+    best_force = force_by_second(separated.signals, rate(separated))[-1]
     rows = []
     for result in results:
         joint = joint_by_second(result.signals, rate(result), with_force)
@@ -106,10 +106,10 @@ def comparison(results: list[Result], with_force: bool) -> str:
             row += [*map(seen_number, force), marked(force[-1], best_force)]
         rows.append([*row, outcome(result)])
     kind = "tangential joint" if with_force else "joint"
-    head = ["law", *(f"{kind}, {name} [mrad rms]" for name in SECONDS), "against robust"]
+    groups, head = [("", 1), (f"{kind} error [mrad rms]", 4)], ["law", *SECONDS, "to separated"]
     if with_force:
-        head += [*(f"force, {name} [N rms]" for name in SECONDS), "against robust"]
-    return table([*head, "end"], rows)
+        groups, head = [*groups, ("force error [N rms]", 4)], [*head, *SECONDS, "to separated"]
+    return table([*head, "end"], rows, text=(len(head),), groups=[*groups, ("", 1)])
 
 
 def write(folder: Path, results: list[Result]) -> Path:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reed_tools.figures import metrics
-from reed_tools.figures.checks import CONTACT_N
+from reed_tools.figures.run_data import CONTACT_N
 from reed_tools.record.signals import Signals
 
 BAND = 0.05          # of the final desired force: inside it the force is stable
@@ -58,7 +58,7 @@ def seconds(signals: Signals, rate_hz: float) -> list[np.ndarray | None]:
 
 
 def times(value: float | None, best: float | None) -> str:
-    """How many times worse than the robust law; below 1: better."""
+    """How many times worse than the law `separated`; below 1: better."""
     if value is None:
         return "stopped"
     if best is None or best <= 0.0:

@@ -1,4 +1,4 @@
-"""The paper's figures 9 to 17 as Reed gets them: left with the paper's gains, right with the robust ones, on the same axes."""
+"""The paper's figures 9 to 17 as Reed gets them: left with the paper's gains, right by the law `separated` with the scenario's, on the same axes."""
 
 import base64
 import io
@@ -6,10 +6,11 @@ import io
 import numpy as np
 
 from reed_tools.figures import lyapunov, lyapunov_plot
+from reed_tools.figures.parameter_units import unit_of
 from reed_tools.paper.phases import phases
 from reed_tools.paper.runs import Result
 from reed_tools.robots import rigid_arm
-from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plt
+from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plot_with_band, plt
 
 FLOOR = 1e-3   # of logarithmic axes: mrad, N
 TIME = "time since the arm became active [s]"
@@ -19,7 +20,7 @@ def grid(rows: int, results: tuple[Result, Result], height_in: float = 2.1, loga
     figure, axes = plt.subplots(rows, 2, sharex=True, sharey=share, squeeze=False, figsize=(WIDTH_IN, height_in * rows + 0.75))
     figure.subplots_adjust(left=0.1, right=0.985, top=1 - 0.42 / (height_in * rows + 0.75),
                            bottom=0.45 / (height_in * rows + 0.75), hspace=0.16, wspace=0.08)
-    for column, (side, result) in enumerate(zip(("paper's gains", "robust gains"), results)):
+    for column, (side, result) in enumerate(zip(("paper's gains", "scenario's gains"), results)):
         axes[0][column].set_title(f"{side}: {result.experiment.law}", loc="left", fontsize=9)
         axes[-1][column].set_xlabel(TIME, fontsize=8)
         for axis in axes[:, column]:
@@ -30,6 +31,7 @@ def grid(rows: int, results: tuple[Result, Result], height_in: float = 2.1, loga
                 axis.annotate("arm stopped", (result.signals.t[-1], 0.97), xycoords=("data", "axes fraction"), fontsize=7,
                               color="#b00020", xytext=(3, -6), textcoords="offset points")
     axes[0][0].set_xlim(0.0, 3.0)
+    axes[0][0].set_xticks([0, 1, 2, 3], ["0", "1", "2", "3"])
     return figure, axes
 
 
@@ -37,6 +39,11 @@ def per_joint(axis, t, values, legend: bool = False, **style) -> None:
     for joint in range(values.shape[1]):
         axis.plot(t, values[:, joint], color=COLOURS[joint % len(COLOURS)], linewidth=0.9,
                   label=f"joint {joint + 1}" if legend else None, **style)
+
+
+def torques(axis, signals) -> None:
+    for joint in range(signals.dof):
+        plot_with_band(axis, signals.t, signals.torque[:, joint], COLOURS[joint % len(COLOURS)], f"joint {joint + 1}")
 
 
 def force_and_trajectory(results):
@@ -66,7 +73,7 @@ def control_signals(results):
     """Fig. 10"""
     figure, axes = grid(1, results, height_in=2.8)
     for (axis,), result in zip(axes.T, results):
-        per_joint(axis, result.signals.t, result.signals.torque, legend=True)
+        torques(axis, result.signals)
         axis.axvline(0.1, color="0.4", linestyle="--", linewidth=0.8)
     axes[0][0].set_ylabel("U [N·m]")
     axes[0][1].legend(ncols=3, fontsize=7)
@@ -78,14 +85,14 @@ def parameters(results):
     figure, axes = grid(1, results, height_in=2.8)
     for (axis,), result in zip(axes.T, results):
         names(axis, result, result.signals.p_hat, result.effective["arm"]["p_true"])
-    axes[0][0].set_ylabel("p̂ [SI]; ticks at the right: truth")
+    axes[0][0].set_ylabel("p̂; ticks at the right: truth")
     axes[0][1].legend(ncols=3, fontsize=7)
     return figure
 
 
 def names(axis, result: Result, values, truth=None) -> None:
     for k, name in enumerate(result.effective["arm"]["param_names"]):
-        axis.plot(result.signals.t, values[:, k], color=COLOURS[k % len(COLOURS)], label=name)
+        axis.plot(result.signals.t, values[:, k], color=COLOURS[k % len(COLOURS)], label=f"{name} [{unit_of(result.effective['arm'], name)}]")
         if truth:
             axis.plot([2.94, 3.0], [truth[k]] * 2, color=COLOURS[k % len(COLOURS)], linewidth=2.5)
 
@@ -98,7 +105,7 @@ def cartesian_input(results):
         JJt = J @ np.swapaxes(J, 1, 2) + 1e-9 * np.eye(3)
         force = np.linalg.solve(JJt, np.einsum("nij,nj->ni", J, result.signals.torque)[:, :, None])[:, :, 0]
         for k, label in enumerate("xyz"):
-            axis.plot(result.signals.t, force[:, k], color=COLOURS[k], linewidth=0.9, label=label)
+            plot_with_band(axis, result.signals.t, force[:, k], COLOURS[k], label)
     axes[0][0].set_ylabel("U as a force at the tip [N]")
     axes[0][1].legend(ncols=3)
     return figure
@@ -108,7 +115,7 @@ def joint_input(results):
     """Fig. 13: torques, and how far the arm is from the sliding surface"""
     figure, axes = grid(2, results)
     for (top, bottom), result in zip(axes.T, results):
-        per_joint(top, result.signals.t, result.signals.torque, legend=True)
+        torques(top, result.signals)
         bottom.semilogy(result.signals.t, np.maximum(np.linalg.norm(result.signals.s, axis=1), 1e-4), color=COLOURS[0])
     axes[0][0].set_ylabel("U [N·m]")
     axes[1][0].set_ylabel("‖s‖ [rad/s]")
@@ -122,10 +129,11 @@ def unknown_adaptation(results):
     for (top, bottom), result in zip(axes.T, results):
         paper = result.effective["control"]["law"] == "paper_corrected"
         names(top, result, result.signals.eta_hat if paper else result.signals.p_hat)
-        top.set_ylabel("η̂ (39) [SI]" if paper else "p̂ (34) [SI]", labelpad=2)
+        top.set_ylabel("η̂ (39)" if paper else "p̂ (34)", labelpad=2)
         for k, label in enumerate(("σ̂₀ [N·m·s/rad]", "σ̂₁ [N·m]")):
             bottom.plot(result.signals.t, result.signals.sigma[:, k], color=COLOURS[k], linestyle=("-", "--")[k], label=label)
-    axes[1][0].set_ylabel("σ̂ (40), (41)")
+    axes[1][0].set_ylabel("σ̂ (40), (41)", labelpad=2)
+    axes[1][0].ticklabel_format(axis="y", scilimits=(-1, 3))
     axes[0][1].legend(ncols=3, fontsize=7)
     axes[1][1].legend()
     figure.subplots_adjust(wspace=0.17)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reed_tools import versions
 from reed_tools.errors import RunError
 from reed_tools.paper.catalogue import Experiment
 from reed_tools.paths import PYTHON, program
@@ -20,7 +21,6 @@ from reed_tools.record.signals import Signals, join
 from reed_tools.run import bus_choice, hil, scenario
 from reed_tools.run.command import STOPPED, last_line, most_cycles, what_failed
 
-PROGRAMS = ("reed_firmware", "reed_plant_sim")
 PORTS = range(43600, 43664)
 POLL_S = 0.05
 
@@ -43,18 +43,14 @@ class Job:
     started: float
 
 
-def programs_digest() -> bytes:
-    return b"".join(hashlib.sha256(program(name).read_bytes()).digest() for name in PROGRAMS)
-
-
 def prepare(experiments: list[Experiment], cache: Path) -> dict[str, Path]:
-    """Folder of each experiment, named by what decides its outcome; every configuration is checked before the first run."""
+    """Folder of each experiment, named by what decides its outcome and what is kept of it; every configuration is checked before the first run."""
     cache.mkdir(parents=True, exist_ok=True)
-    programs, folders = programs_digest(), {}
+    kept, folders = (versions.build() + " ".join(Signals.__dataclass_fields__)).encode(), {}
     for experiment in experiments:
         draft = cache / "draft.toml"
         scenario.write_effective(experiment.scenario, None, experiment.entries(), draft)
-        name = hashlib.sha256(draft.read_bytes() + programs).hexdigest()[:20]
+        name = hashlib.sha256(draft.read_bytes() + kept).hexdigest()[:20]
         folders[experiment.key] = cache / name
         folders[experiment.key].mkdir(exist_ok=True)
         draft.replace(folders[experiment.key] / "effective.toml")
@@ -133,15 +129,15 @@ def keep(job: Job) -> None:
     complaint = what_failed(job.plan, outcome)
     if outcome.interrupted or complaint:
         raise RunError(f"{job.experiment.key}: {complaint or 'interrupted'}")
-    telemetry_log.merge([job.plan.log("firmware"), job.plan.log("plant")], job.folder / "telemetry.lcmlog")
-    signals = join(telemetry_log.load(job.folder / "telemetry.lcmlog"))
+    logs = [job.plan.log("firmware"), job.plan.log("plant")]
+    signals = join(telemetry_log.load(*logs))
     if signals is None:
         raise RunError(f"{job.experiment.key}: the arm never became active: {last_line(job.plan, 'firmware')}")
     stopped = last_line(job.plan, "firmware") if outcome.firmware_status == STOPPED else ""
     np.savez(job.folder / "part.npz", stopped=stopped, **vars(signals))
     (job.folder / "part.npz").replace(job.folder / "signals.npz")
-    for raw in ("telemetry.lcmlog", "bus.candump"):
-        (job.folder / raw).unlink(missing_ok=True)
+    for raw in (*logs, job.folder / "bus.candump"):
+        raw.unlink(missing_ok=True)
 
 
 def load(experiment: Experiment, folder: Path) -> Result:

@@ -5,12 +5,38 @@ from pathlib import Path
 
 from reed_tools.errors import UsageError
 
+NUMBER = (int, float)
+NEEDED = {  # what figures, pictures and page are made from
+    "scenario": {"name": str, "duration_s": NUMBER, "seed": int},
+    "arm": {"name": str, "dh": list, "param_names": list, "p_true": list, "p_lo": list, "p_hi": list, "torque_limit": list},
+    "control": {"law": str, "sigma0_max": NUMBER, "sigma1_max": NUMBER},
+    "timing": {"rate_hz": NUMBER},
+}
+
 
 def load(path: Path) -> dict:
     try:
-        return tomllib.loads(path.read_text())
+        effective = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise UsageError(f"{path}: {error}") from None
+    if problem := first_problem(effective):
+        raise UsageError(f"{path}: {problem}; it is not the file that a run left")
+    return effective
+
+
+def first_problem(effective: dict) -> str | None:
+    for section, keys in NEEDED.items():
+        if not isinstance(effective.get(section), dict):
+            return f"[{section}] is missing"
+        for key, kind in keys.items():
+            if not isinstance(effective[section].get(key), kind):
+                return f"{section}.{key} is missing or of another type"
+    checks = effective.get("checks")
+    if not isinstance(checks, list):
+        return "[[checks]] is missing"
+    if not all(isinstance(check.get("name"), str) and isinstance(check.get("limit"), NUMBER) for check in checks):
+        return "a check has no name or no limit"
+    return None
 
 
 def parameter_boxes(effective: dict) -> list[tuple[float, float]]:

@@ -30,6 +30,7 @@ class Signals:
     contact_force: np.ndarray     # N, true force of wall and disturbance on the robot, base axes, [n, 3]
     stiffness: np.ndarray         # N/m, estimate of the wall's (51)
     position: np.ndarray          # rad, motor-side angle as measured, [n, dof]
+    reference_speed: np.ndarray   # rad/s, of the desired angle, [n, dof]
     error: np.ndarray             # rad, e (22), [n, dof]
     s: np.ndarray                 # rad/s, (23), [n, dof]
     observer: np.ndarray          # N·m, r (47), [n, dof]
@@ -79,7 +80,7 @@ def join(recording: Recording) -> Signals | None:
         tip_error=tip_error, tangential_tip=remove_component(tip_error, pick(control, "normal")),
         force_desired=pick(control, "f_d"), force_measured=pick(control, "f"), force_true=pick(plant, "normal_force"),
         force_integral=pick(control, "e_f_integral"), contact_force=pick(plant, "contact_force"),
-        stiffness=pick(control, "k_hat_e"), position=position, error=pick(control, "e"), s=pick(control, "s"),
+        stiffness=pick(control, "k_hat_e"), position=position, reference_speed=pick(control, "theta_d_dot"), error=pick(control, "e"), s=pick(control, "s"),
         observer=pick(control, "observer"), torque=pick(control, "tau"), p_hat=pick(adaptation, "p_hat"),
         eta_hat=pick(adaptation, "eta_hat"),
         sigma=np.stack([pick(adaptation, "sigma0"), pick(adaptation, "sigma1")], axis=1), source=pick(control, "force_source"),

@@ -1,18 +1,16 @@
-"""Telemetry logs: the two programs' logs merged into one, and one log read into arrays."""
+"""Telemetry logs read into arrays: one merged log, or the two programs' own."""
 
 import hashlib
-import heapq
 import itertools
-import os
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import lcm
 import numpy as np
 
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import use_message_types
+from reed_tools.record import event_file
 from reed_tools.record.message_layout import decode_all
 
 # Fixed order: it is part of the digest's definition.
@@ -20,7 +18,6 @@ DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLA
 TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
           "REED_PLANT": "plant_t", "REED_TIMING": "timing_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t"}
-EVENT_HEAD_BYTES = 28  # of an LCM log: sync word, number, time, two lengths
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
 
@@ -55,48 +52,18 @@ class Recording:
         return total.hexdigest()
 
 
-def open_log(path: Path, mode: str) -> lcm.EventLog:
-    """Through its descriptor's name: liblcm takes names in UTF-8 only."""
-    descriptor = os.open(path, os.O_RDONLY if mode == "r" else os.O_RDWR | os.O_CREAT, 0o666)
-    try:
-        return lcm.EventLog(f"/proc/self/fd/{descriptor}", mode, overwrite=mode == "w")
-    finally:
-        os.close(descriptor)
-
-
 def events(path: Path):
     """(utime, channel, bytes) of every message in the log, in its order."""
-    log = open_log(path, "r")
-    try:
-        for event in log:
-            if event.channel.startswith("REED_") and len(event.data) >= 16:
-                yield HEAD.unpack_from(event.data)[0] if len(event.data) >= 24 else 0, event.channel, event.data
-    finally:
-        log.close()
+    for event in event_file.read(path):
+        if event.channel.startswith("REED_") and len(event.data) >= 16:
+            yield HEAD.unpack_from(event.data)[0] if len(event.data) >= HEAD.size else 0, event.channel, event.data
 
 
 def require_whole(path: Path) -> None:
-    """A log that was cut or damaged reads as another run: liblcm passes over what it cannot read."""
-    log = open_log(path, "r")
-    try:
-        read = sum(EVENT_HEAD_BYTES + len(event.channel) + len(event.data) for event in log)
-    finally:
-        log.close()
-    if read != path.stat().st_size:
-        raise UsageError(f"{path} is damaged: messages make up {read} of its {path.stat().st_size} bytes; nothing was changed")
-
-
-def merge(parts: list[Path], target: Path) -> None:
-    """Writes all messages of `parts` by their own time, then deletes the parts."""
-    parts = [part for part in parts if part.exists()]
-    if target.exists():
-        target.unlink()
-    log = open_log(target, "w")
-    for utime, channel, data in heapq.merge(*(events(part) for part in parts), key=lambda event: event[0]):
-        log.write_event(utime, channel, data)
-    log.close()
-    for part in parts:
-        part.unlink()
+    """A log that was cut or damaged reads as another run."""
+    read, size = sum(event.size for event in event_file.read(path)), path.stat().st_size
+    if read != size or not size:
+        raise UsageError(f"{path} is damaged: whole messages make up {read} of its {size} bytes; nothing was changed")
 
 
 def load(*paths: Path) -> Recording:
@@ -113,12 +80,20 @@ def load(*paths: Path) -> Recording:
         if channel in payloads:
             payloads[channel].append(data)
         elif channel in SINGLES:
-            recording.singles[channel].append(getattr(reed, SINGLES[channel]).decode(data))
+            recording.singles[channel].append(decoded(getattr(reed, SINGLES[channel]).decode, channel, data))
     for channel, name in TABLES.items():
-        recording.tables[channel] = decode_all(getattr(reed, name), name, payloads[channel])
+        recording.tables[channel] = decoded(decode_all, channel, getattr(reed, name), name, payloads[channel])
     last = max(recording.tables["REED_MEASURED"]["cycle"], default=-1)
     for channel in DIGEST_CHANNELS:
         # The plant may answer a SYNC after the controller's last recorded cycle.
         kept = [data for data in payloads[channel] if HEAD.unpack_from(data)[1] <= last]
         recording.channel_digests[channel] = hashlib.sha256(b"".join(kept)).hexdigest()
     return recording
+
+
+def decoded(decode, channel: str, *what):
+    """The generated classes raise whatever they stumble over."""
+    try:
+        return decode(*what)
+    except (ValueError, struct.error, IndexError, MemoryError):  # UnicodeDecodeError is a ValueError
+        raise RunError(f"a message of {channel} cannot be read: the log is damaged, or was written with other message types") from None

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from reed_tools.paths import use_message_types
-from reed_tools.record.telemetry_log import open_log
+from reed_tools.record import event_file, whole_file
 
 LOOP, EVENTS = 1, 2  # rows of the trace
 PHASES = (("receive", "rx_ns"), ("compute", "compute_ns"), ("transmit", "tx_ns"))
@@ -16,10 +16,10 @@ def write(log: Path, target: Path) -> int:
     import reed
 
     kinds = {"REED_TIMING": reed.timing_t, "REED_EVENT": reed.event_t, "REED_BUS": reed.bus_t}
-    messages = ((event.channel, kinds[event.channel].decode(event.data)) for event in open_log(log, "r")
+    messages = ((event.channel, kinds[event.channel].decode(event.data)) for event in event_file.read(log)
                 if event.channel in kinds)
     events, cycles = trace(messages)
-    target.write_text(json.dumps({"displayTimeUnit": "ns", "traceEvents": events}))
+    whole_file.write_text(target, json.dumps({"displayTimeUnit": "ns", "traceEvents": events}))
     return cycles
 
 

@@ -10,14 +10,14 @@ from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
 from reed_tools.law import choice as law_choice
 from reed_tools.paths import program
-from reed_tools.record import trace_events
-from reed_tools.record.telemetry_log import load, merge
-from reed_tools.run import bus_choice, hil, progress, scenario, vm
+from reed_tools.record import run_folder, trace_events
+from reed_tools.record.telemetry_log import load
+from reed_tools.record.whole_file import draft_of
+from reed_tools.run import bus_choice, hil, origin, progress, scenario, vm
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump", "bus.log",
-             "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
+OWN_FILES = (*run_folder.FILES, "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
@@ -53,6 +53,7 @@ def run(arguments) -> int:
             folder = folders.fresh(arguments.out, effective["scenario"]["name"], OWN_FILES,
                                    "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
+        origin.write(folder, arguments)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
@@ -71,6 +72,7 @@ def clear(folder: Path) -> None:
     """Without what a run left there; other files stay."""
     for own in OWN_FILES:
         (folder / own).unlink(missing_ok=True)
+        draft_of(folder / own).unlink(missing_ok=True)
 
 
 def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = False) -> int:
@@ -78,17 +80,17 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     from reed_tools.figures.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
 
     link_frames(folder)
-    merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
-    if trace:
+    unmerged = run_folder.complete(folder)
+    if trace and not unmerged:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
     complaint = law_choice.in_words(what_failed(plan, outcome))
     if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
-        if not load(folder / "telemetry.lcmlog").has("REED_MEASURED"):  # nothing ran: no trace of it
+        if not load(*run_folder.logs(folder)).has("REED_MEASURED"):  # nothing ran: no trace of it
             clear(folder)
             if not any(folder.iterdir()):
                 folder.rmdir()
         raise UsageError(complaint)
-    summary = evaluate(folder)
+    summary, unwritten = evaluate(folder)
     if summary["cycles"]:
         result_table.show(summary)
     for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
@@ -96,9 +98,10 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
             print(plain(law_choice.in_words(line)))  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
         print("interrupted: the figures are those of the part that ran")
-    print(f"report  {shown(folder / 'report.html')}")
-    if complaint:
-        raise RunError(complaint)
+    if not unwritten:
+        print(f"report  {shown(folder / 'report.html')}")
+    if problem := complaint or unmerged or unwritten:
+        raise RunError(problem)
     return 0 if summary["verdict"] == "pass" else 1
 
 

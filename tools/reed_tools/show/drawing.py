@@ -44,6 +44,7 @@ STYLE = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top"
          "lines.linewidth": 1.1, "legend.frameon": False, "legend.fontsize": 8, "figure.dpi": 110, "savefig.dpi": 160,
          "axes.prop_cycle": matplotlib.cycler(color=COLOURS)}
 WIDTH_IN = 7.4
+LABEL_IN = 0.29   # right edge of the axes' labels
 
 
 def panels(count: int, height_in: float):
@@ -66,6 +67,21 @@ def legend_right(figure, *axes) -> None:
 
 
 def label_left(axis, text: str) -> None:
-    """At the same place in every panel, however long the numbers beside it are."""
+    """At the same place in every panel and picture, however long the numbers beside it are."""
     axis.set_ylabel(text)
-    axis.yaxis.set_label_coords(-0.056, 0.5)
+    across = matplotlib.transforms.blended_transform_factory(axis.figure.transFigure, axis.transAxes)
+    axis.yaxis.set_label_coords(LABEL_IN / axis.figure.get_size_inches()[0], 0.5, transform=across)
+
+
+BIN_S = 0.01
+
+
+def plot_with_band(axis, t, values, color, label=None) -> None:
+    """A signal that chatters: its mean over 10 ms as a line, its range as a shade, so that no curve hides the others."""
+    if len(t) < 2:
+        return
+    rows = max(1, round(BIN_S / max(float(t[1] - t[0]), 1e-9)))
+    count = len(t) // rows
+    blocks, times = values[:count * rows].reshape(count, rows), t[:count * rows].reshape(count, rows).mean(axis=1)
+    axis.fill_between(times, blocks.min(axis=1), blocks.max(axis=1), color=color, alpha=0.22, linewidth=0)
+    axis.plot(times, blocks.mean(axis=1), color=color, linewidth=0.9, label=label)

@@ -7,8 +7,10 @@ from pathlib import Path
 STYLE = """
 body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.5rem;margin-bottom:0} h2{font-size:1.1rem;margin-top:2rem;border-bottom:1px solid #ccc}
-table{border-collapse:collapse;margin:.6rem 0} th,td{padding:.15rem .8rem .15rem 0;text-align:right;border-bottom:1px solid #eee}
-th:first-child,td:first-child{text-align:left} th{font-weight:600}
+table{border-collapse:collapse;margin:.6rem 0;display:block;overflow-x:auto}
+th,td{padding:.15rem .8rem .15rem 0;text-align:right;border-bottom:1px solid #eee;vertical-align:top} td{white-space:nowrap}
+th:first-child,td:first-child,th.text,td.text{text-align:left} th[colspan]{text-align:center;border-bottom:none} td.text:last-child{white-space:normal;min-width:9rem} th{font-weight:600}
+figure{margin:.6rem 0} figcaption{color:#555;font-size:13px}
 .pass{color:#00703c}.fail{color:#b00020} img{width:100%;margin:.6rem 0} pre{white-space:pre-wrap;font-size:12px;background:#f6f6f6;padding:.8rem}
 @media print{body{max-width:none;margin:0} img,table{break-inside:avoid}}
 """
@@ -18,12 +20,15 @@ class Markup(str):
     """Text that is HTML already; everything else is escaped where a table takes it."""
 
 
-def table(head: list[str], rows: list[list]) -> str:
+def table(head: list[str], rows: list[list], text: tuple[int, ...] = (), groups: list[tuple[str, int]] = []) -> str:
+    """Numbers stay on one line; columns `text` hold sentences, which may wrap. `groups`: heads above so many columns each."""
     def cells(tag: str, values: list) -> str:
-        return "".join(f"<{tag}>{value if isinstance(value, Markup) else html.escape(str(value))}</{tag}>" for value in values)
+        return "".join(f"<{tag}{' class=text' if k in text else ''}>{value if isinstance(value, Markup) else html.escape(str(value))}</{tag}>"
+                       for k, value in enumerate(values))
 
     body = "\n".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
-    return f"<table><thead><tr>{cells('th', head)}</tr></thead><tbody>\n{body}\n</tbody></table>"
+    above = f"<tr>{''.join(f'<th colspan={count}>{title}</th>' for title, count in groups)}</tr>" if groups else ""
+    return f"<table><thead>{above}<tr>{cells('th', head)}</tr></thead><tbody>\n{body}\n</tbody></table>"
 
 
 def mark(ok: bool) -> Markup:

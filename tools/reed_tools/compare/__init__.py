@@ -1,0 +1,1 @@
+"""Two or more runs, or campaigns, beside each other: what differs comes first."""
