@@ -47,6 +47,7 @@ class Endpoint {
   void CountRefusedCommand() noexcept { ++refused_commands_; }
 
   double period_s_;
+  std::uint32_t shape_every_cycles_;
   double timeout_periods_;
   Robot& mutable_robot() noexcept { return robot_; }
   Journal& journal() noexcept { return journal_; }

@@ -14,7 +14,8 @@ std::int64_t MonotonicNs() {
 
 }  // namespace
 
-Publisher::Publisher(const PublisherConfig& config) : config_(config) {
+Publisher::Publisher(const PublisherConfig& config)
+    : config_(config), limits_(std::variant_size_v<Record>, RateLimit(kNetworkPerSecond)) {
   if (!config_.log_path.empty()) log_ = std::make_unique<EventLogFile>(config_.log_path);
   if (config_.network) {
     network_ = std::make_unique<LcmNetwork>();
@@ -68,8 +69,8 @@ void Publisher::Publish(const Record& record) {
     std::fprintf(stderr, "reed_plant_sim: the log ends at utime %lld: its disk takes no more\n",
                  static_cast<long long>(message.utime));
   }
-  RateLimit& limit = std::holds_alternative<PlantRecord>(record) ? plant_limit_ : event_limit_;
-  if (network_ && limit.Allow(MonotonicNs())) network_->Publish(message.channel, message.bytes);
+  if (network_ && limits_[record.index()].Allow(MonotonicNs()))
+    network_->Publish(message.channel, message.bytes);
   if (const auto* event = std::get_if<EventRecord>(&record); event != nullptr && config_.console) {
     std::printf("%s\n", event->text.data());
     std::fflush(stdout);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "reed/plant/record/encode.h"
 #include "reed/plant/record/lcm_sinks.h"
@@ -54,7 +55,7 @@ class Publisher final : public Recorder {
   MessageEncoder encoder_;
   std::unique_ptr<EventLogFile> log_;
   std::unique_ptr<LcmNetwork> network_;
-  RateLimit plant_limit_{kNetworkPerSecond}, event_limit_{kNetworkPerSecond};
+  std::vector<RateLimit> limits_;  // by kind of record
   bool log_complete_ = true;
   std::int64_t dropped_ = 0;
   std::atomic<bool> finish_{false};
