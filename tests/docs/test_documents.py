@@ -23,7 +23,8 @@ FILES = tracked()
 DOCUMENTS = [name for name in FILES if name.endswith(".md")]
 SOURCE = "h|cc|c|py|md|toml|lcm|dbc|txt|pml"
 MADE = {"effective.toml"}  # written by a run
-PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy"}
+PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy",
+                "mcap_protobuf": "mcap-protobuf-support", "google": "protobuf", "foxglove_schemas_protobuf": "foxglove-schemas-protobuf"}
 PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "cmake": "CMake", "ninja-build": "Ninja", "g++": "g++", "pkg-config": "pkg-config", "python3": "Python", "python3-venv": "Python",
     "libeigen3-dev": "Eigen", "liblcm-dev": "LCM", "liblcm-bin": "LCM", "libcli11-dev": "CLI11", "libtomlplusplus-dev": "toml++",

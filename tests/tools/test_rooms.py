@@ -16,6 +16,7 @@ ARROWS = {
     "record": set(),
     "robots": {"show"},
     "figures": {"record", "robots", "show"},
+    "export": {"record", "robots", "run"},
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},

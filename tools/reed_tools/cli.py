@@ -15,6 +15,8 @@ COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
     "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
     "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
+    "export": ("export.command", "a run as MCAP, CSV, Parquet, or its bus as ASC, BLF"),
+    "decode": ("export.decode", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
