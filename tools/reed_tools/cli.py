@@ -15,6 +15,7 @@ COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
     "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
     "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
+    "live": ("live.command", "a page that shows a run as it happens, or a finished one"),
     "export": ("export.command", "a run as MCAP, CSV, Parquet, or its bus as ASC, BLF"),
     "decode": ("export.decode", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
