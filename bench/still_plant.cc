@@ -25,11 +25,13 @@ class StillBody final : public ArmBody {
   void StartSchedule() override {}
   void Advance(const Eigen::VectorXd& /*motor_torque_Nm*/, bool /*braked*/, double /*dt_s*/) override {}
   const Truth& truth() const override { return truth_; }
+  const ArmShape& Shape() override { return shape_; }
   bool healthy() const override { return true; }
   std::string ailment() const override { return {}; }
 
  private:
   Truth truth_;
+  ArmShape shape_{{Eigen::Vector3d::Zero()}, {Eigen::Vector3d::Zero()}};
 };
 
 int Run(const std::string& bus, int core) {

@@ -8,7 +8,7 @@ for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
 
 FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
-         "timing/test_loop_calls.py", "tools/test_hil.py")
+         "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_live.py")
 
 
 def pytest_xdist_make_scheduler(config, log):

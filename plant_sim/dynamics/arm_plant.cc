@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "reed/plant/dynamics/centre_line.h"
 #include "reed/plant/dynamics/disturbance.h"
 #include "reed/plant/dynamics/equilibrium.h"
 #include "reed/plant/dynamics/rosenbrock.h"
@@ -19,6 +20,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr int kShapeSamples =
+    2;  // inside each element: its bending is a polynomial of degree 3 and small bubbles
 constexpr double kAbsurdSpeed = 1e3;  // rad/s of a joint or motor; arms of this class stay below 20
 
 std::vector<Brake> BuildBrakes(const ArmChain& chain) {
@@ -41,13 +44,15 @@ class ArmPlant::Impl {
         disturbance_(scenario.disturbance, scenario.seed),
         equations_(chain_, wall_),
         integrator_(equations_.size()),
-        brakes_(BuildBrakes(chain_)) {
+        brakes_(BuildBrakes(chain_)),
+        centre_line_(chain_, kShapeSamples) {
     if (!(config_.max_step_s > 0.0)) throw std::invalid_argument("plant.max_step_s must be positive");
     const int n = chain_.dof();
-    x_ = x_dot_ = VectorXd::Zero(equations_.size());
+    x_ = x_dot_ = undeformed_ = VectorXd::Zero(equations_.size());
     begin_.motor_torque = end_.motor_torque = VectorXd::Zero(n);
     truth_.motor_angle_rad = truth_.motor_speed_radps = truth_.joint_angle_rad = VectorXd::Zero(n);
     Reset(truth_.motor_angle_rad);
+    Shape();
   }
 
   void Reset(const VectorXd& motor_angle_rad) {
@@ -92,6 +97,15 @@ class ArmPlant::Impl {
   void StartSchedule() { schedule_from_ = t_; }
 
   const Truth& truth() const { return truth_; }
+
+  const ArmShape& Shape() {
+    const int n = chain_.dof();
+    undeformed_.head(n) = undeformed_.segment(n, n) = x_.head(n);
+    shape_.bent = centre_line_.At(x_);
+    shape_.rigid = centre_line_.At(undeformed_);
+    return shape_;
+  }
+
   bool healthy() const { return sick_coordinate_ < 0; }
   int num_coordinates() const { return equations_.size(); }
 
@@ -154,9 +168,11 @@ class ArmPlant::Impl {
   EquationsOfMotion equations_;
   Rosenbrock integrator_;
   std::vector<Brake> brakes_;
-  VectorXd x_, x_dot_;
+  CentreLine centre_line_;
+  VectorXd x_, x_dot_, undeformed_;
   Load begin_, end_;
   Truth truth_;
+  ArmShape shape_;
   double t_ = 0.0;
   double schedule_from_ = kNever;  // in t_
   bool braked_ = false, loaded_ = false;
@@ -171,6 +187,7 @@ void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s
 }
 void ArmPlant::StartSchedule() { impl_->StartSchedule(); }
 const Truth& ArmPlant::truth() const { return impl_->truth(); }
+const ArmShape& ArmPlant::Shape() { return impl_->Shape(); }
 bool ArmPlant::healthy() const { return impl_->healthy(); }
 std::string ArmPlant::ailment() const { return impl_->ailment(); }
 int ArmPlant::num_coordinates() const { return impl_->num_coordinates(); }

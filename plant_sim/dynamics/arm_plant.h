@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "reed/config/description/scenario.h"
 
@@ -20,6 +21,12 @@ struct Truth {
   double normal_force_N = 0.0;  // of the wall alone
   double gap_m = 1e9;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
+};
+
+/// Points of the centre line from base to tool point (centre_line.h), base frame: as they are, and where the same points
+/// would be if nothing bent and the joints stood at the motor angles.
+struct ArmShape {
+  std::vector<Eigen::Vector3d> bent, rigid;
 };
 
 class ArmPlant {
@@ -40,6 +47,8 @@ class ArmPlant {
   void StartSchedule();
 
   const Truth& truth() const;
+  /// Of this instant; valid until the next call.
+  const ArmShape& Shape();
   /// False once a state is not finite or absurd; the caller brakes, says which state and when, and exits 3.
   bool healthy() const;
   std::string ailment() const;  // names the state and the time, "" while healthy

@@ -90,16 +90,4 @@ MatrixXd EquationsOfMotion::StiffnessMatrix() const {
   return K;
 }
 
-Placement EquationsOfMotion::SectionFrame(int member, double l) const {
-  const MemberWork& work = members_[static_cast<std::size_t>(member)];
-  Section section(l, chain_.members[static_cast<std::size_t>(member)].length);
-  section.Deform(work.e, work.e_dot);
-  Placement carrier;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (chain_.elements[i].member == member) return carrier * chain_.elements[i].mount * section.pose();
-    carrier = nodes_[i].world;
-  }
-  return carrier;
-}
-
 }  // namespace reed::plant

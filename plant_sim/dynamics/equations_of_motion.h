@@ -71,11 +71,6 @@ class EquationsOfMotion {
   /// ∂²(E_p2 + E_p3)/∂x²: springs and beams. Set-up only.
   Eigen::MatrixXd StiffnessMatrix() const;
 
-  /// Output frame of every element in the base frame.
-  const Placement& frame(std::size_t element) const { return nodes_[element].world; }
-  /// A section of a member in the base frame, l from its base. Set-up only.
-  Placement SectionFrame(int member, double l) const;
-
  private:
   struct Node {       // one per element
     Placement pose;   // output frame in the carrier's output frame

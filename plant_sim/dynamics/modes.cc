@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reed/plant/dynamics/centre_line.h"
 #include "reed/plant/dynamics/equilibrium.h"
 
 namespace reed::plant {
@@ -93,21 +94,8 @@ class ArmModes::Impl {
     return equations_.tool_position();
   }
 
-  std::vector<Vector3d> CentreLine(const VectorXd& x, int samples) {
-    equations_.SetState(x, VectorXd::Zero(x.size()));
-    std::vector<Vector3d> points{Vector3d::Zero()};
-    for (std::size_t i = 0; i < chain_.elements.size(); ++i) {
-      const int m = chain_.elements[i].member;
-      if (m >= 0)
-        for (int s = 1; s <= samples; ++s)
-          points.push_back(
-              equations_
-                  .SectionFrame(m, chain_.members[static_cast<std::size_t>(m)].length * s / (samples + 1))
-                  .p);
-      points.push_back(equations_.frame(i).p);
-    }
-    points.push_back(equations_.tool_position());
-    return points;
+  std::vector<Vector3d> Points(const VectorXd& x, int samples) const {
+    return CentreLine(chain_, samples).At(x);
   }
 
   std::vector<Vector3d> ModeShape(int index, int samples) {
@@ -115,8 +103,8 @@ class ArmModes::Impl {
     const VectorXd shape = modes_.shape.col(index);
     const double step =
         1e-6 / shape.cwiseAbs().maxCoeff();  // small beside every length, large beside round-off
-    std::vector<Vector3d> ahead = CentreLine(x_ + step * shape, samples);
-    const std::vector<Vector3d> behind = CentreLine(x_ - step * shape, samples);
+    std::vector<Vector3d> ahead = Points(x_ + step * shape, samples);
+    const std::vector<Vector3d> behind = Points(x_ - step * shape, samples);
     double largest = 0.0;
     for (std::size_t i = 0; i < ahead.size(); ++i) {
       ahead[i] -= behind[i];
@@ -150,9 +138,9 @@ Vector3d ArmModes::Load(const Vector3d& tip_force_N, bool gravity) {
 }
 const std::vector<double>& ArmModes::frequency_hz() const { return impl_->frequency_hz(); }
 std::vector<Vector3d> ArmModes::Undeformed(int samples) {
-  return impl_->CentreLine(impl_->undeformed(), samples);
+  return impl_->Points(impl_->undeformed(), samples);
 }
-std::vector<Vector3d> ArmModes::Deformed(int samples) { return impl_->CentreLine(impl_->x(), samples); }
+std::vector<Vector3d> ArmModes::Deformed(int samples) { return impl_->Points(impl_->x(), samples); }
 std::vector<Vector3d> ArmModes::ModeShape(int index, int samples) { return impl_->ModeShape(index, samples); }
 
 }  // namespace reed::plant

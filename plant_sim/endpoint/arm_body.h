@@ -17,6 +17,7 @@ class ArmBody {
   virtual void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) = 0;
   virtual void StartSchedule() = 0;
   virtual const Truth& truth() const = 0;
+  virtual const ArmShape& Shape() = 0;
   virtual bool healthy() const = 0;
   virtual std::string ailment() const = 0;
 };

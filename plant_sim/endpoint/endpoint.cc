@@ -1,11 +1,21 @@
 #include "reed/plant/endpoint/endpoint.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "reed_layout.h"
 
 namespace reed::plant {
+namespace {
+
+constexpr double kShapes_hz = 60.0;  // what an eye can follow
+
+}  // namespace
 
 Endpoint::Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder)
     : period_s_(1.0 / scenario.timing.rate_hz),
+      shape_every_cycles_(
+          static_cast<std::uint32_t>(std::max(1L, std::lround(scenario.timing.rate_hz / kShapes_hz)))),
       timeout_periods_(scenario.drives.command_timeout_cycles),
       body_(body),
       journal_(recorder),
@@ -57,6 +67,7 @@ void Endpoint::Sample(std::uint32_t cycle, const Standstill& standstill) {
   truth.stalls = standstill.stalls;
   truth.stood_s = standstill.stood_s;
   journal_.Put(truth);
+  if (cycle % shape_every_cycles_ == 0) journal_.Put(robot_.ShapeSnapshot());
 }
 
 void Endpoint::CheckHealth() {

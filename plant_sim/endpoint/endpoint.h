@@ -47,6 +47,7 @@ class Endpoint {
   void CountRefusedCommand() noexcept { ++refused_commands_; }
 
   double period_s_;
+  std::uint32_t shape_every_cycles_;
   double timeout_periods_;
   /// The last Poll took frames off the bus; when none of them was of use, they were somebody else's.
   bool heard_others() const noexcept { return port_.received() > 0; }

@@ -16,6 +16,7 @@ class FlexibleArmBody final : public ArmBody {
   }
   void StartSchedule() override { plant_.StartSchedule(); }
   const Truth& truth() const override { return plant_.truth(); }
+  const ArmShape& Shape() override { return plant_.Shape(); }
   bool healthy() const override { return plant_.healthy(); }
   std::string ailment() const override { return plant_.ailment(); }
 

@@ -20,10 +20,4 @@ void Journal::Note(PlantEvent code, bus::DriveState state, double value, const c
   recorder_.Put(event);
 }
 
-void Journal::Put(PlantRecord record) noexcept {
-  record.cycle = cycle_;
-  record.utime = utime_;
-  recorder_.Put(record);
-}
-
 }  // namespace reed::plant

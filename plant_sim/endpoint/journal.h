@@ -24,7 +24,12 @@ class Journal {
                                           const char* format, ...) noexcept;
 
   /// Completes the stamp of `record` and passes it on.
-  void Put(PlantRecord record) noexcept;
+  template <typename T>
+  void Put(T record) noexcept {
+    record.cycle = cycle_;
+    record.utime = utime_;
+    recorder_.Put(record);
+  }
 
  private:
   Recorder& recorder_;

@@ -124,6 +124,24 @@ PlantRecord Robot::Snapshot() const {
   return r;
 }
 
+ShapeRecord Robot::ShapeSnapshot() {
+  const ArmShape& shape = body_.Shape();
+  const std::size_t last = shape.bent.size() - 1;
+  const std::size_t stride = (last + kMaxShapePoints - 2) / (kMaxShapePoints - 1);
+  ShapeRecord r;
+  const auto add = [&](std::size_t from) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto row = static_cast<Eigen::Index>(axis);
+      r.bent[axis][r.num] = static_cast<float>(shape.bent[from][row]);
+      r.rigid[axis][r.num] = static_cast<float>(shape.rigid[from][row]);
+    }
+    ++r.num;
+  };
+  for (std::size_t k = 0; k < last; k += stride) add(k);
+  add(last);  // the tool point, always
+  return r;
+}
+
 void Robot::NoteDriveChange(bus::DriveState before) {
   const bus::DriveState now = drives_.state();
   if (now == before) return;

@@ -49,6 +49,9 @@ class Robot {
   /// Truth of this instant for telemetry.
   PlantRecord Snapshot() const;
 
+  /// The arm's shape of this instant for telemetry, thinned out to what a record holds.
+  ShapeRecord ShapeSnapshot();
+
   double time_s() const noexcept { return time_s_; }
   bool healthy() const { return body_.healthy(); }
   const DriveChain& drives() const noexcept { return drives_; }

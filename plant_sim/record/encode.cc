@@ -42,12 +42,27 @@ void Fill(const EventRecord& r, event_t& m) {
   m.text = r.text.data();
 }
 
+void Fill(const ShapeRecord& r, shape_t& m) {
+  m.utime = r.utime;
+  m.cycle = r.cycle;
+  m.num = static_cast<std::int32_t>(r.num);
+  const auto copy = [&](const auto& from, std::vector<float>& to) {
+    to.assign(from.data(), from.data() + r.num);
+  };
+  copy(r.bent[0], m.x), copy(r.bent[1], m.y), copy(r.bent[2], m.z);
+  copy(r.rigid[0], m.rigid_x), copy(r.rigid[1], m.rigid_y), copy(r.rigid[2], m.rigid_z);
+}
+
 }  // namespace
 
 Message MessageEncoder::Encode(const Record& record) {
   if (const auto* plant = std::get_if<PlantRecord>(&record)) {
     Fill(*plant, plant_);
     return Pack(kPlantChannel, plant_);
+  }
+  if (const auto* shape = std::get_if<ShapeRecord>(&record)) {
+    Fill(*shape, shape_);
+    return Pack(kShapeChannel, shape_);
   }
   Fill(std::get<EventRecord>(record), event_);
   return Pack(kPlantEventChannel, event_);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <reed/event_t.hpp>
 #include <reed/plant_t.hpp>
+#include <reed/shape_t.hpp>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace reed::plant {
 
 inline constexpr const char* kPlantChannel = "REED_PLANT";
 inline constexpr const char* kPlantEventChannel = "REED_PLANT_EVENT";
+inline constexpr const char* kShapeChannel = "REED_SHAPE";
 
 struct Message {
   const char* channel = nullptr;
@@ -30,6 +32,7 @@ class MessageEncoder {
 
   plant_t plant_;
   event_t event_;
+  shape_t shape_;
   std::vector<std::uint8_t> buffer_;
 };
 

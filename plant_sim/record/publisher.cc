@@ -92,8 +92,7 @@ bool Publisher::DrainBatch() {
 void Publisher::Publish(const Record& record) {
   const Message message = encoder_.Encode(record);
   log_.Write(message.channel, message.bytes, message.utime);
-  telemetry::RateLimit& limit = std::holds_alternative<PlantRecord>(record) ? plant_limit_ : event_limit_;
-  if (network_.enabled() && limit.Admit(rt::NowNs())) network_.Publish(message.channel, message.bytes);
+  if (network_.enabled() && limits_[record.index()].Admit(rt::NowNs())) network_.Publish(message.channel, message.bytes);
   if (const auto* event = std::get_if<EventRecord>(&record); event != nullptr && config_.console) {
     std::printf("%s\n", event->text.data());
     std::fflush(stdout);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "reed/plant/record/encode.h"
 #include "reed/rt/spsc_ring.h"
@@ -61,8 +62,8 @@ class Publisher final : public Recorder {
   MessageEncoder encoder_;
   telemetry::EventLog log_;
   telemetry::LcmPublisher network_;
-  telemetry::RateLimit plant_limit_{kPublishPerSecond, kPublishBurst},
-      event_limit_{kPublishPerSecond, kPublishBurst};
+  std::vector<telemetry::RateLimit> limits_{std::variant_size_v<Record>,
+                                            telemetry::RateLimit(kPublishPerSecond, kPublishBurst)};  // by kind of record
   std::int64_t dropped_ = 0;
   std::int64_t patient_until_ns_ = 0;
   std::atomic<bool> finish_{false}, done_{false};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <variant>
@@ -23,6 +24,15 @@ struct PlantRecord {
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
   std::int64_t stalls = 0;
   double stood_s = 0.0;
+};
+
+/// Mirrors lcmtypes/shape_t.lcm. Its size keeps the message below one datagram.
+inline constexpr std::size_t kMaxShapePoints = 48;
+struct ShapeRecord {
+  std::int64_t utime = 0;
+  std::int64_t cycle = 0;
+  std::size_t num = 0;
+  std::array<std::array<float, kMaxShapePoints>, 3> bent{}, rigid{};  // m, [axis][point]
 };
 
 /// Numbers of event_t.code on REED_PLANT_EVENT. Fixed for ever: logs outlive versions.
@@ -53,8 +63,8 @@ struct EventRecord {
   std::array<char, 240> text{};  // zero-terminated
 };
 
-using Record = std::variant<PlantRecord, EventRecord>;
-static_assert(std::is_trivially_copyable_v<PlantRecord> && std::is_trivially_copyable_v<EventRecord>);
+using Record = std::variant<PlantRecord, EventRecord, ShapeRecord>;
+static_assert(std::is_trivially_copyable_v<Record>);
 
 /// Where records go. RT: as safe as the implementation.
 class Recorder {

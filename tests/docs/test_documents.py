@@ -23,7 +23,8 @@ FILES = tracked()
 DOCUMENTS = [name for name in FILES if name.endswith(".md")]
 SOURCE = "h|cc|c|py|md|toml|lcm|dbc|txt|pml"
 MADE = {"effective.toml", "run.json"}  # written by a run
-PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy"}
+PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy",
+                "mcap_protobuf": "mcap-protobuf-support", "google": "protobuf", "PIL": "pillow", "foxglove_schemas_protobuf": "foxglove-schemas-protobuf"}
 PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "cmake": "CMake", "ninja-build": "Ninja", "g++": "g++", "pkg-config": "pkg-config", "python3": "Python", "python3-venv": "Python",
     "libeigen3-dev": "Eigen", "liblcm-dev": "LCM", "liblcm-bin": "LCM", "libcli11-dev": "CLI11", "libtomlplusplus-dev": "toml++",
@@ -31,7 +32,7 @@ PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "user-mode-linux": "User Mode Linux", "busybox-static": "busybox", "can-utils": "can-utils", "default-jre": "Java",
     "default-jdk-headless": "Java", "liblcm-java": "lcm-spy", "libjchart2d-java": "jchart2d", "clang-format-14": "clang-format",
     "clang-tidy-14": "clang-tidy", "valgrind": "valgrind", "spin": "spin", "gcc-arm-none-eabi": "arm-none-eabi",
-    "libstdc++-arm-none-eabi-newlib": "arm-none-eabi", "qemu-system-arm": "qemu", "rt-tests": "cyclictest", "xvfb": "xvfb"}
+    "libstdc++-arm-none-eabi-newlib": "arm-none-eabi", "qemu-system-arm": "qemu", "rt-tests": "cyclictest", "xvfb": "xvfb", "chromium": "chromium"}
 
 
 def text_of(name):

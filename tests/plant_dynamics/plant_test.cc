@@ -54,6 +54,34 @@ TEST(ArmPlant, AdvanceStaysOffTheHeap) {
   for (int i = 0; i < 100; ++i) plant.Advance(torque, i > 60, 1e-3);
 }
 
+TEST(ArmPlant, ShapeIsTheTruthAndStraightWithoutBending) {
+  Scenario scene = Pressing();
+  ArmPlant plant(scene);
+  plant.Reset(test::MidPose());
+  const ArmShape& sagging = plant.Shape();
+  ASSERT_EQ(sagging.bent.size(), sagging.rigid.size());
+  EXPECT_EQ(sagging.bent.front(), Vector3d::Zero());
+  EXPECT_LT((sagging.bent.back() - plant.truth().tip_m).norm(), 1e-15);
+  const double sag_m = (sagging.bent.back() - sagging.rigid.back()).norm();
+  EXPECT_GT(sag_m, 1e-4);
+  EXPECT_LT(sag_m, 2e-2);
+
+  scene.arm.gravity_mps2.setZero();
+  ArmPlant weightless(scene);
+  weightless.Reset(test::MidPose());
+  const ArmShape& straight = weightless.Shape();
+  for (std::size_t k = 0; k < straight.bent.size(); ++k) {
+    EXPECT_LT((straight.bent[k] - sagging.rigid[k]).norm(), 1e-9) << k;
+  }
+}
+
+TEST(ArmPlant, ShapeStaysOffTheHeap) {
+  ArmPlant plant(Pressing());
+  plant.Reset(test::MidPose());
+  const test::NoAlloc guard("ArmPlant::Shape");
+  for (int i = 0; i < 10; ++i) plant.Shape();
+}
+
 TEST(ArmPlant, SmallerStepsConvergeWithTheSquareOfTheStep) {
   const auto end = [](double step) {
     Scenario scene = test::LosslessA5();

@@ -39,6 +39,11 @@ class RotorBody final : public ArmBody {
   }
   void StartSchedule() override { schedule_from_s = truth_.t_s; }
   const Truth& truth() const override { return truth_; }
+  const ArmShape& Shape() override {
+    shape_.bent = {Eigen::Vector3d::Zero(), truth_.tip_m};
+    shape_.rigid = {Eigen::Vector3d::Zero(), Eigen::Vector3d(truth_.motor_angle_rad[0], 0.0, 0.0)};
+    return shape_;
+  }
   bool healthy() const override { return truth_.t_s < sick_from_s; }
   std::string ailment() const override { return healthy() ? "" : "motor 1 speed is not finite at 0.005 s"; }
 
@@ -50,6 +55,7 @@ class RotorBody final : public ArmBody {
 
  private:
   Truth truth_;
+  ArmShape shape_;
 };
 
 class VectorRecorder final : public Recorder {
@@ -57,6 +63,7 @@ class VectorRecorder final : public Recorder {
   void Put(const Record& record) noexcept override { records.push_back(record); }
 
   std::vector<PlantRecord> Plants() const { return All<PlantRecord>(); }
+  std::vector<ShapeRecord> Shapes() const { return All<ShapeRecord>(); }
   std::vector<EventRecord> Events() const { return All<EventRecord>(); }
   int Count(PlantEvent code) const {
     int count = 0;

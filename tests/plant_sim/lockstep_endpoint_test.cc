@@ -60,6 +60,19 @@ TEST_F(Lockstep, EachSyncIsExactlyOnePeriodAndUtimeIsSimulatedTime) {
   }
 }
 
+TEST_F(Lockstep, TheShapeIsRecordedAboutSixtyTimesPerSecond) {
+  for (std::uint32_t k = 0; k < 52; ++k) SyncAndTake(k);
+  const auto shapes = recorder_.Shapes();
+  ASSERT_EQ(shapes.size(), 4U);  // every 17th cycle of 1000 per second
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    EXPECT_EQ(shapes[k].cycle, static_cast<std::int64_t>(17 * k));
+    EXPECT_EQ(shapes[k].utime, static_cast<std::int64_t>(17000 * k));
+    ASSERT_EQ(shapes[k].num, 2U);
+    EXPECT_EQ(shapes[k].bent[0][1], 0.0F);
+    EXPECT_EQ(shapes[k].rigid[0][1], 0.25F);
+  }
+}
+
 TEST_F(Lockstep, UtimeIsRoundedWhenThePeriodIsNoWholeMicrosecond) {
   Scenario scenario = TwoJointScenario();
   scenario.timing.rate_hz = 3000.0;

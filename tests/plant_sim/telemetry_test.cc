@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <reed/event_t.hpp>
 #include <reed/plant_t.hpp>
+#include <reed/shape_t.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -97,6 +98,40 @@ TEST_F(PublisherLog, HoldsEveryRecordInOrderWithItsNumbersWhenTheProducerWaits) 
   EXPECT_EQ(m.text, "brakes released");
   lcm_eventlog_free_event(entry);
   EXPECT_EQ(lcm_eventlog_read_next_event(log), nullptr);
+  lcm_eventlog_destroy(log);
+}
+
+TEST_F(PublisherLog, HoldsTheShapeBelowOneDatagram) {
+  ShapeRecord record;
+  record.utime = 34000;
+  record.cycle = 34;
+  record.num = kMaxShapePoints;
+  for (std::size_t k = 0; k < record.num; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      record.bent[axis][k] = static_cast<float>(100 * axis + k);
+      record.rigid[axis][k] = -record.bent[axis][k];
+    }
+  }
+  Publisher(Config()).Put(record);
+  lcm_eventlog_t* log = lcm_eventlog_create(path_.c_str(), "r");
+  ASSERT_NE(log, nullptr);
+  lcm_eventlog_event_t* entry = lcm_eventlog_read_next_event(log);
+  ASSERT_NE(entry, nullptr);
+  EXPECT_STREQ(entry->channel, "REED_SHAPE");
+  EXPECT_LT(entry->datalen, 1400);
+  shape_t m;
+  ASSERT_EQ(m.decode(entry->data, 0, entry->datalen), entry->datalen);
+  EXPECT_EQ(m.utime, 34000);
+  EXPECT_EQ(m.cycle, 34);
+  ASSERT_EQ(m.num, static_cast<std::int32_t>(kMaxShapePoints));
+  const auto last = static_cast<float>(kMaxShapePoints - 1);
+  EXPECT_EQ(m.x.back(), last);
+  EXPECT_EQ(m.y.back(), 100.0F + last);
+  EXPECT_EQ(m.z.back(), 200.0F + last);
+  EXPECT_EQ(m.rigid_x.back(), -last);
+  EXPECT_EQ(m.rigid_y.back(), -100.0F - last);
+  EXPECT_EQ(m.rigid_z.back(), -200.0F - last);
+  lcm_eventlog_free_event(entry);
   lcm_eventlog_destroy(log);
 }
 

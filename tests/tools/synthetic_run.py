@@ -19,6 +19,7 @@ D = (3.0, 4.0)
 NORMAL = (0.0, 0.0, 1.0)
 RATE_HZ = 1000.0
 LEAD_CYCLES = 100        # before the arm is active
+SHAPE_CYCLES = 17
 SWITCH_S = 2.25          # known -> unknown
 AMPLITUDE = (4e-3, -3e-3)  # rad, orthogonal to D
 ALONG_D = 1e-3           # rad per unit of D
@@ -128,6 +129,13 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
         plant.gap = -1e-4
         plant.stalls, plant.stood_s = (0, 0.0) if cycle < 1001 else (1, 0.0031)
         yield "plant", "REED_PLANT", plant
+
+        if cycle % SHAPE_CYCLES == 0:
+            shape = stamp(reed.shape_t(), cycle)
+            shape.num = 3
+            shape.x, shape.y, shape.z = [0.0, 0.25, plant.tip[0]], [0.0] * 3, [0.0, 0.5, plant.tip[2]]
+            shape.rigid_x, shape.rigid_y, shape.rigid_z = [0.0, 0.25, 0.4], [0.0] * 3, [0.0, 0.5, 0.3]
+            yield "plant", "REED_SHAPE", shape
 
 
 def run_message(clock: str, finished: bool):

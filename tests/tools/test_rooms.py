@@ -17,6 +17,8 @@ ARROWS = {
     "robots": {"show"},
     "figures": {"record", "robots", "show"},
     "compare": {"figures", "record", "show"},
+    "live": {"record", "robots", "run"},
+    "export": {"record", "robots", "run"},
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},

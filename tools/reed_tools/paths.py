@@ -13,6 +13,8 @@ SCENARIOS = ROOT / "config" / "scenarios"
 ARMS = ROOT / "config" / "arms"
 PYTHON = (sys.executable, "-I", "-X", "utf8")  # the caller's environment does not reach it
 
+CURRENT_RUN = ROOT / "build" / "current-run"  # the folder of the run that was started last: for who watches it
+
 
 def program(name: str) -> Path:
     path = BUILD / "bin" / name

@@ -2,6 +2,7 @@
 the generated classes need half a minute for them, this needs a tenth of a second."""
 
 import re
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,23 +10,38 @@ from reed_tools.errors import RunError
 from reed_tools.paths import ROOT
 
 SCALARS = {"int8_t": "i1", "boolean": "?", "int32_t": ">i4", "int64_t": ">i8", "float": ">f4", "double": ">f8"}
-FIELD = re.compile(r"^\s*(\w+)\s+(\w+)((?:\[\w+\])?)\s*;", re.MULTILINE)
+FIELD = re.compile(r"^\s*(\w+)\s+(\w+)((?:\[\w+\])?)\s*;[^\S\n]*(?://[^\S\n]*(.*))?$", re.MULTILINE)
+UNIT = re.compile(r"(%|us|ns|s|rad(?:/s(?:\^2)?)?|rad/m|N·m(?:·s/rad)?|N·s|N/m|N|m(?:/s)?|J|1/s)(?=[,; ]|$)")
 FINGERPRINT = np.dtype((np.void, 8))
 
 
-def fields(type_name: str) -> list[tuple[str, str, str | None]]:
-    """(scalar type, field, length or None) in the order of lcmtypes/TYPE.lcm; length is a number or an earlier field."""
+class Field(NamedTuple):
+    kind: str           # scalar type
+    name: str
+    length: str | None  # of an array: a number or an earlier field
+    comment: str
+
+    @property
+    def unit(self) -> str:
+        """What the comment begins with, "" for a number without unit."""
+        found = UNIT.match(self.comment)
+        return found[1] if found else ""
+
+
+def fields(type_name: str) -> list[Field]:
+    """In the order of lcmtypes/TYPE.lcm."""
     text = (ROOT / "lcmtypes" / f"{type_name}.lcm").read_text()
     body = text[text.index("{"):]
-    return [(kind, name, length.strip("[]") or None) for kind, name, length in FIELD.findall(body)]
+    return [Field(kind, name, length.strip("[]") or None, comment.strip()) for kind, name, length, comment in FIELD.findall(body)]
 
 
 def record_type(type_name: str, sample) -> np.dtype:
     """The layout that all messages share which have the array lengths of `sample` (a decoded message)."""
     record = [("fingerprint", FINGERPRINT)]
-    for kind, name, length in fields(type_name):
+    for field in fields(type_name):
+        length = field.length
         count = () if length is None else (int(length) if length.isdigit() else getattr(sample, length),)
-        record.append((name, SCALARS[kind], count))
+        record.append((field.name, SCALARS[field.kind], count))
     return np.dtype(record)
 
 

@@ -16,8 +16,9 @@ from reed_tools.record.message_layout import decode_all
 # Fixed order: it is part of the digest's definition.
 DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")
 TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
-          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t"}
-SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t"}
+          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t"}
+SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t",
+           "REED_HISTOGRAM": "histogram_t"}
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
 

@@ -9,11 +9,11 @@ from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
 from reed_tools.law import choice as law_choice
-from reed_tools.paths import program
+from reed_tools.paths import CURRENT_RUN, program
 from reed_tools.record import run_folder, trace_events
 from reed_tools.record.telemetry_log import load
 from reed_tools.record.whole_file import draft_of
-from reed_tools.run import bus_choice, hil, origin, progress, scenario, vm
+from reed_tools.run import bus_choice, hil, live_page, origin, progress, scenario, vm
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
@@ -41,6 +41,7 @@ def add_arguments(parser) -> None:
                         help="a law from outside: a shared library with the functions of reed/law.h, or a Python file (lockstep only)")
     parser.add_argument("--trace", action="store_true",
                         help="also write trace.json, for ui.perfetto.dev: a span per phase, instants for what happened")
+    parser.add_argument("--live", action="store_true", help="with a page that shows the run as it happens, on 127.0.0.1")
 
 
 def run(arguments) -> int:
@@ -54,14 +55,22 @@ def run(arguments) -> int:
                                    "a run already; remove it or choose another folder")
             shutil.copy(checked, folder)
         origin.write(folder, arguments)
+        say_where(folder)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
                         bus, arguments.clock, str(folder), most_cycles(effective), law=law.spec, environment=law.environment)
-        with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
-            outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
-    return conclude(folder, plan, outcome, arguments.trace)
+        with live_page.beside() if arguments.live else contextlib.nullcontext():
+            with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
+                outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
+            return conclude(folder, plan, outcome, arguments.trace)
+
+
+def say_where(folder: Path) -> None:
+    """For the live page: telemetry does not say where a run's configuration lies. Not worth a run if it cannot be written."""
+    with contextlib.suppress(OSError):
+        CURRENT_RUN.write_text(f"{folder}\n")
 
 
 def most_cycles(effective: dict) -> int:

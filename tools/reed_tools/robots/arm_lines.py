@@ -1,0 +1,65 @@
+"""The arm, the wall and a force as lines, plates and arrows: what every picture in space is made from. Base frame, m."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reed_tools.robots.rigid_arm import poses
+
+FORCE_mPN = 0.01      # length of a force's arrow
+LEAST_FORCE_N = 0.05  # below it there is no arrow
+PLATE_m = (0.4, 0.4, 0.002)
+
+
+def centre_line(arm: dict, q: np.ndarray) -> np.ndarray:
+    """Rigid arms for many poses, [n, 2 dof + 2, 3]: from each joint along a, then along d, at last the tool point."""
+    at = poses(arm, q)
+    R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
+    points = [p]
+    for joint, (_, a, _) in enumerate(arm["dh"]):
+        points += [p + a * R[:, :, 0], at.p[joint]]
+        R, p = at.R[joint], at.p[joint]
+    return np.stack([*points, p + R @ np.asarray(arm.get("tool_offset", [0.0, 0.0, 0.0]))], axis=1)
+
+
+def joint_transforms(arm: dict, q: np.ndarray) -> list[tuple[tuple, tuple]]:
+    """(position, quaternion w x y z) of every link frame in the one before: Rx(alpha) Tx(a) Rz(theta) Tz(d)."""
+    found = []
+    for (alpha, a, d), theta in zip(arm["dh"], q):
+        ca, sa, ct, st = np.cos(alpha / 2), np.sin(alpha / 2), np.cos(theta / 2), np.sin(theta / 2)
+        found.append(((a, -d * np.sin(alpha), d * np.cos(alpha)), (ca * ct, sa * ct, -sa * st, ca * st)))
+    return found
+
+
+@dataclass
+class Plate:
+    centre: np.ndarray
+    q: tuple  # w x y z: z axis along the wall's normal
+    size: tuple = PLATE_m
+
+
+def wall_plate(effective: dict) -> Plate | None:
+    """The true wall, seen from the robot: its surface is the plate's upper face."""
+    wall = effective["wall"]
+    if not wall.get("present", False):
+        return None
+    normal = np.array(wall["normal"], dtype=float)
+    normal /= np.linalg.norm(normal)
+    surface = np.array(wall["point_m"], dtype=float) + wall["offset_m"] * normal
+    return Plate(surface - PLATE_m[2] / 2 * normal, turn_to(normal, (0.0, 0.0, 1.0)))
+
+
+def aim(direction) -> tuple:
+    """Quaternion w x y z that turns x into this direction: where arrows point."""
+    return turn_to(np.asarray(direction, dtype=float), (1.0, 0.0, 0.0))
+
+
+def turn_to(direction: np.ndarray, axis: tuple) -> tuple:
+    """The shortest turn of `axis` into `direction`."""
+    to, start = direction / np.linalg.norm(direction), np.array(axis)
+    w = 1.0 + start @ to
+    if w < 1e-9:  # opposite: half a turn about any axis across
+        across = np.cross(start, np.eye(3)[np.argmin(np.abs(start))])
+        return (0.0, *(across / np.linalg.norm(across)))
+    q = np.array([w, *np.cross(start, to)])
+    return tuple(q / np.linalg.norm(q))
