@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from reed_tools.paths import program
-from reed_tools.record import telemetry_log
+from reed_tools.record.merge import merge
 from reed_tools.run import hil, scenario
 
 
@@ -13,5 +13,5 @@ def record(folder: Path, bus: str, name: str, *entries: str) -> Path:
                     str(folder), int(61 * effective["timing"]["rate_hz"]), lcm=False)
     outcome = hil.run_pair(plan, lambda mode, t_s: None)
     assert (outcome.firmware_status, outcome.plant_status) == (0, 0)
-    telemetry_log.merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
+    merge([plan.log("firmware"), plan.log("plant")], folder / "telemetry.lcmlog")
     return folder

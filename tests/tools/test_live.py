@@ -18,6 +18,7 @@ from reed_tools.live.batch import Batch, after_restart, until, whole
 from reed_tools.live.moment import Moment
 from reed_tools.paths import PYTHON, ROOT, use_message_types
 from reed_tools.record import telemetry_log
+from reed_tools.record.merge import merge
 from reed_tools.run import live_page
 
 BUS = "udp:239.74.163.2:46423"
@@ -309,7 +310,7 @@ def test_a_run_of_another_arm_takes_the_page_over(folder, tmp_path, monkeypatch)
     (tmp_path / "current-run").write_text(f"{folder}\n")
     first = list(telemetry_log.events(folder / "telemetry.lcmlog"))
     synthetic = synthetic_run.write(tmp_path / "two", [], duration_s=0.3)  # two joints, a scenario that no file has
-    telemetry_log.merge([synthetic / "firmware.lcmlog", synthetic / "plant.lcmlog"], synthetic / "telemetry.lcmlog")
+    merge([synthetic / "firmware.lcmlog", synthetic / "plant.lcmlog"], synthetic / "telemetry.lcmlog")
     second = list(telemetry_log.events(synthetic / "telemetry.lcmlog"))
     live, page = Fed(monkeypatch), SeenPage()
     live.hear(page, first[:4000])

@@ -8,7 +8,7 @@ from reed_tools.compare import figures
 from reed_tools.errors import UsageError
 from reed_tools.figures import summary
 from reed_tools.record import configuration, run_folder
-from reed_tools.record.telemetry_log import load, require_whole
+from reed_tools.record.telemetry_log import load
 from reed_tools.show import tables
 from reed_tools.text import plain
 
@@ -50,9 +50,7 @@ def kind_of(folder: Path) -> str:
 
 
 def read_run(folder: Path) -> tuple[dict, dict, object]:
-    run_folder.verify(folder)
-    if (folder / run_folder.TELEMETRY).is_file():
-        require_whole(folder / run_folder.TELEMETRY)
+    run_folder.require_unchanged(folder)
     found, signals = summary.build(folder, load(*run_folder.logs(folder)))
     return found, figures.of_run(found, configuration.load(folder / run_folder.CONFIGURATION)), signals
 

@@ -5,8 +5,8 @@ import tempfile
 from pathlib import Path
 
 from reed_tools.errors import RunError, UsageError
-from reed_tools.record import configuration
-from reed_tools.record.telemetry_log import load, require_whole
+from reed_tools.record import configuration, run_folder
+from reed_tools.record.telemetry_log import load
 
 TELEMETRY, BUS = ("mcap", "csv", "parquet"), ("asc", "blf", "mf4")
 INSTALL = "build/venv/bin/python3 -m pip install"
@@ -53,7 +53,7 @@ def of_telemetry(folder: Path, kind: str, target: Path) -> list[Path]:
         from reed_tools.export import tables as format_of
         if kind == "parquet":
             import pyarrow  # noqa: F401  (before a minute of telemetry is read)
-    require_whole(folder / "telemetry.lcmlog")
+    run_folder.require_unchanged(folder)
     effective = configuration.load(folder / "effective.toml")
     recording = load(folder / "telemetry.lcmlog")
     if not recording.has("REED_MEASURED"):

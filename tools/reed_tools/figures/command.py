@@ -4,7 +4,7 @@ from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import result_table
 from reed_tools.figures.evaluate import evaluate
-from reed_tools.record import run_folder, telemetry_log
+from reed_tools.record import run_folder
 
 
 def add_arguments(parser) -> None:
@@ -18,9 +18,7 @@ def run(arguments) -> int:
             raise UsageError(f"{folder} is not a run folder: it has no {name}")
     run_folder.require_ended(folder)
     problem = run_folder.complete(folder)
-    run_folder.verify(folder)
-    if (folder / run_folder.TELEMETRY).is_file():
-        telemetry_log.require_whole(folder / run_folder.TELEMETRY)
+    run_folder.require_unchanged(folder)
     summary, unwritten = evaluate(folder)
     result_table.show(summary)
     if problem := problem or unwritten:

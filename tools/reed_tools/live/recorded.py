@@ -9,8 +9,8 @@ from reed_tools.errors import UsageError
 from reed_tools.live.batch import CLOCK, until, whole
 from reed_tools.live.curves import History, rows
 from reed_tools.live.moment import Moment
-from reed_tools.record import configuration
-from reed_tools.record.telemetry_log import load, require_whole
+from reed_tools.record import configuration, run_folder
+from reed_tools.record.telemetry_log import load
 
 if TYPE_CHECKING:  # it needs viser
     from reed_tools.live.page import Page
@@ -22,7 +22,7 @@ def require(folder: Path) -> None:
     for name in ("effective.toml", "telemetry.lcmlog"):
         if not (folder / name).is_file():
             raise UsageError(f"{folder} is not a run folder: it has no {name}")
-    require_whole(folder / "telemetry.lcmlog")
+    run_folder.require_unchanged(folder)
 
 
 class Recorded:

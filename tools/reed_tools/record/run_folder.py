@@ -85,6 +85,13 @@ def verify(folder: Path) -> None:
             raise UsageError(f"{found} is damaged: its SHA-256 is not the one in {SUMS}; nothing was changed")
 
 
+def require_unchanged(folder: Path) -> None:
+    """Before anything is read from a folder: its records are those of its run, and whole."""
+    verify(folder)
+    if (folder / TELEMETRY).is_file():
+        telemetry_log.require_whole(folder / TELEMETRY)
+
+
 def sum_of(path: Path) -> str:
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
