@@ -21,7 +21,10 @@ constexpr int kBatch = 64;
 }  // namespace
 
 Publisher::Publisher(const PublisherConfig& config)
-    : config_(config), log_(config.log_path), network_("", config.network) {
+    : config_(config),
+      log_(config.log_path),
+      network_("", config.network),
+      limits_(std::variant_size_v<Record>, {kPublishPerSecond, kPublishBurst}) {
   Complain(network_.report().problem);
   thread_ = std::thread([this] { Run(); });
 }
@@ -92,7 +95,8 @@ bool Publisher::DrainBatch() {
 void Publisher::Publish(const Record& record) {
   const Message message = encoder_.Encode(record);
   log_.Write(message.channel, message.bytes, message.utime);
-  if (network_.enabled() && limits_[record.index()].Admit(rt::NowNs())) network_.Publish(message.channel, message.bytes);
+  if (network_.enabled() && limits_[record.index()].Admit(rt::NowNs()))
+    network_.Publish(message.channel, message.bytes);
   if (const auto* event = std::get_if<EventRecord>(&record); event != nullptr && config_.console) {
     std::printf("%s\n", event->text.data());
     std::fflush(stdout);

@@ -62,8 +62,7 @@ class Publisher final : public Recorder {
   MessageEncoder encoder_;
   telemetry::EventLog log_;
   telemetry::LcmPublisher network_;
-  std::vector<telemetry::RateLimit> limits_{std::variant_size_v<Record>,
-                                            telemetry::RateLimit(kPublishPerSecond, kPublishBurst)};  // by kind of record
+  std::vector<telemetry::RateLimit> limits_;  // by kind of record
   std::int64_t dropped_ = 0;
   std::int64_t patient_until_ns_ = 0;
   std::atomic<bool> finish_{false}, done_{false};
