@@ -1,12 +1,14 @@
 """tools/reed itself, in a checkout of its own with stand-ins for cmake and ninja."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 
 import pytest
 
+from reed_tools.cli import COMMANDS
 from reed_tools.paths import ROOT
 
 STAND_IN = """#!/bin/sh
@@ -57,6 +59,15 @@ class Checkout:
 @pytest.fixture
 def checkout(tmp_path):
     return Checkout(tmp_path / "check out")  # a blank in its path
+
+
+def test_every_command_waits_for_its_turn_and_gets_what_it_needs():
+    """tools/reed has two lists of commands: those that lock and look at the build, and what each of them needs."""
+    text = (ROOT / "tools" / "reed").read_text()
+    locked, needs = (part.partition("\nesac")[0] for part in text.split('case "$command" in')[1:])
+    for command in COMMANDS:
+        assert re.search(rf"^  (.* \| )?{command} \|", locked, re.MULTILINE), command
+        assert re.search(rf"^  (.* \| )?{command}( \|.*)?\)", needs, re.MULTILINE), command
 
 
 def ended_in_the_tools(done):

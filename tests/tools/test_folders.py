@@ -90,10 +90,11 @@ def test_a_second_run_into_the_same_folder_is_refused(reed, tmp_path):
 
 
 @pytest.mark.parametrize("argv", [["run", "--out", ""], ["campaign", "--out", ""], ["campaign", "--resume", ""], ["bench", "--out", ""],
-                                  ["paper", "--out", ""], ["report", ""]])
+                                  ["paper", "--out", ""], ["report", ""], ["export", ""],
+                                  ["export", "run", "--out", ""], ["live", ""], ["compare", "", ""]])
 def test_an_empty_folder_name_is_refused(reed, argv, tmp_path):
     done = reed(*argv, cwd=tmp_path)
-    assert done.returncode == 2 and "is empty; allowed: the path of a folder" in done.stderr
+    assert done.returncode == 2 and "is empty; allowed: a path" in done.stderr
     assert os.listdir(tmp_path) == []
 
 

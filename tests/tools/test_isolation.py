@@ -9,7 +9,7 @@ import time
 import pytest
 
 from reed_tools import cli
-from reed_tools.paths import PYTHON, ROOT
+from reed_tools.paths import PYTHON, ROOT, SCENARIOS
 
 BUS = "udp:239.74.163.2:43978"  # a port of its own: tests run side by side
 BOOTSTRAP = ROOT / "tools" / "reed"
@@ -99,6 +99,12 @@ def test_a_path_that_is_no_utf8_is_a_path(reed, tmp_path):
     done = subprocess.run([os.fsencode(word) for word in reed.command(["run", "--bus", BUS, "--out", odd])],
                           env=reed.environment({}), capture_output=True)
     assert done.returncode == 1 and b"r\xfcn/report.html" in done.stdout, done.stderr
+    scenario = os.fsencode(tmp_path) + b"/pr\xfcfung.toml"  # its name stands in the report, as what repeats the run
+    with open(scenario, "wb") as file:
+        file.write((SCENARIOS / "press_known.toml").read_bytes())
+    done = subprocess.run([os.fsencode(word) for word in reed.command(["run", os.fsdecode(scenario), "--bus", BUS, "--out", tmp_path / "2"])],
+                          env=reed.environment({}), capture_output=True)
+    assert done.returncode == 1 and (tmp_path / "2" / "report.html").exists(), done.stderr
     done = subprocess.run([os.fsencode(word) for word in reed.command(["run", "--bus", BUS, os.fsdecode(b"/r\xfcn.toml")])],
                           env=reed.environment({}), capture_output=True)
     assert done.returncode == 2 and len(done.stderr.splitlines()) == 1 and b"Traceback" not in done.stderr
@@ -124,3 +130,8 @@ def test_one_module_starts_matplotlib():
                 assert not any(name.split(".")[0] == "matplotlib" for name in names), file
 
 
+def test_every_python_of_ours_is_started_isolated():
+    """By paths.PYTHON. The tests' own runner and builds get an environment without PYTHON variables; a law is its owner's."""
+    allowed = {"paths.py", "__main__.py", "stages.py", "choice.py"}
+    found = {file.name for file in (ROOT / "tools" / "reed_tools").rglob("*.py") if "sys.executable" in file.read_text()}
+    assert found == allowed

@@ -17,9 +17,9 @@ held: list[int] = []  # descriptors of this process's folders, open until it end
 
 
 def argument(text: str) -> Path:
-    """What a command line may give as a folder."""
+    """What a command line may give as a folder or file."""
     if not text:
-        raise argparse.ArgumentTypeError("is empty; allowed: the path of a folder")
+        raise argparse.ArgumentTypeError("is empty; allowed: a path")
     return Path(text)
 
 

@@ -5,7 +5,6 @@ import re
 import shutil
 import struct
 import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from reed_tools.bench import programs
 from reed_tools.errors import RunError
-from reed_tools.paths import BUILD, ROOT, program
+from reed_tools.paths import BUILD, PYTHON, ROOT, program
 from reed_tools.record.telemetry_log import load
 
 # Scenario and cycles: approach, contact and force mode; until after the sensor is lost, 2.0 s after the arm is active.
@@ -95,7 +94,7 @@ def record(folder: Path, scenario: str, log: Path, cycles: int) -> Path:
     types = BUILD / "lcmtypes" / "python"
     script = (f"import sys, runpy; sys.path.insert(0, {str(types)!r}); sys.argv = sys.argv[1:]; "
               "runpy.run_path(sys.argv[0], run_name='__main__')")
-    run([sys.executable, "-c", script, str(ROOT / "embedded" / "generate_loop.py"), str(settings), str(log), str(cycles), str(out)])
+    run([*PYTHON, "-c", script, str(ROOT / "embedded" / "generate_loop.py"), str(settings), str(log), str(cycles), str(out)])
     return out
 
 

@@ -4,6 +4,7 @@ import importlib.util
 import tempfile
 from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.telemetry_log import load
@@ -17,10 +18,10 @@ EXAMPLE = """examples:
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("run_dir", metavar="RUN_DIR", type=Path, help="a folder that tools/reed run wrote")
+    parser.add_argument("run_dir", metavar="RUN_DIR", type=folders.argument, help="a folder that tools/reed run wrote")
     parser.add_argument("--to", required=True, choices=(*TELEMETRY, *BUS), metavar="FORMAT",
                         help="telemetry as mcap, csv or parquet; the bus as asc, blf or mf4")
-    parser.add_argument("--out", metavar="F", type=Path, help="file to write; default telemetry.FORMAT or bus.FORMAT in RUN_DIR")
+    parser.add_argument("--out", metavar="F", type=folders.argument, help="file to write; default telemetry.FORMAT or bus.FORMAT in RUN_DIR")
     parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 

@@ -2,8 +2,8 @@
 
 import os
 import socket
-from pathlib import Path
 
+from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.run.live_page import HOST, PORT
 
@@ -15,7 +15,7 @@ EXAMPLE = """examples:
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("run_dir", nargs="?", metavar="RUN_DIR", type=Path, help="a finished run; without it whatever runs is shown")
+    parser.add_argument("run_dir", nargs="?", metavar="RUN_DIR", type=folders.argument, help="a finished run; without it whatever runs is shown")
     parser.add_argument("--port", type=int, default=PORT, metavar="N", help="on 127.0.0.1; default %(default)s")
     parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 

@@ -1,6 +1,7 @@
 """Which configuration a run on the telemetry has: the run command leaves word of its folder, for programs started by hand the
 names in REED_RUN are looked up. Without either the page shows what telemetry alone says."""
 
+import os
 import tempfile
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from reed_tools.record import configuration
 def configuration_of(run, dof: int) -> dict | None:
     """run: run_t or None when the page was opened after the run's start."""
     try:
-        effective = configuration.load(Path(CURRENT_RUN.read_text().strip()) / "effective.toml")
+        effective = configuration.load(Path(os.fsdecode(CURRENT_RUN.read_bytes().rstrip(b"\n"))) / "effective.toml")
     except (OSError, ReedError):
         effective = None
     if effective and fits(effective, run, dof):

@@ -31,7 +31,7 @@ def replacing(path: Path):
 
 def write_text(path: Path, text: str) -> None:
     with replacing(path) as file:
-        file.write(text.encode())
+        file.write(text.encode(errors="backslashreplace"))  # a path need not be UTF-8
 
 
 def sync_folder(folder: Path) -> None:

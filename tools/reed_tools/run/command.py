@@ -1,6 +1,7 @@
 """tools/reed run: one hardware-in-the-loop run, from a scenario to a verdict."""
 
 import contextlib
+import os
 import shutil
 import tempfile
 from pathlib import Path
@@ -70,7 +71,7 @@ def run(arguments) -> int:
 def say_where(folder: Path) -> None:
     """For the live page: telemetry does not say where a run's configuration lies. Not worth a run if it cannot be written."""
     with contextlib.suppress(OSError):
-        CURRENT_RUN.write_text(f"{folder}\n")
+        CURRENT_RUN.write_bytes(os.fsencode(folder) + b"\n")
 
 
 def most_cycles(effective: dict) -> int:
