@@ -22,16 +22,16 @@ Options ParseOptions(int argc, char** argv) {
                  "wall: paced by the clock; lockstep: the next cycle starts when this one is done")
       ->check(CLI::IsMember({"wall", "lockstep"}))
       ->capture_default_str();
-  app.add_flag("--enable", options.enable,
+  app.add_flag("--enable", options.control.enable,
                "open the brakes once every joint is measured; without it the arm is only watched");
-  app.add_option("--log", options.log, "LCM event log that gets every message");
-  app.add_option("--candump", options.candump, "CAN log in candump -L format");
-  app.add_option("--law", options.law,
+  app.add_option("--log", options.control.log, "LCM event log that gets every message");
+  app.add_option("--candump", options.control.candump, "CAN log in candump -L format");
+  app.add_option("--law", options.control.law,
                  "a law from outside: a shared library with the functions of reed/law.h, LIB.so[:ARGUMENT]");
-  app.add_flag("--seccomp", options.seccomp,
+  app.add_flag("--seccomp", options.control.seccomp,
                "prove it: any system call of the loop beyond its named handful ends the program");
-  app.add_flag("--quiet", options.quiet, "print errors only");
-  app.add_flag("!--no-lcm", options.lcm, "do not publish on the LCM network");
+  app.add_flag("--quiet", options.control.quiet, "print errors only");
+  app.add_flag("!--no-lcm", options.control.lcm, "do not publish on the LCM network");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -40,7 +40,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_firmware: %s (reed_firmware --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
-  options.clock = clock == "wall" ? rt::ClockKind::kWall : rt::ClockKind::kLockstep;
+  options.control.clock = clock == "wall" ? rt::ClockKind::kWall : rt::ClockKind::kLockstep;
   return options;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reed/config/schema/scenario_file.h"
-#include "reed/rt/clock_kind.h"
+#include "reed/firmware/program/control.h"
 
 namespace reed {
 
@@ -12,14 +12,7 @@ struct Options {
   std::string config;
   LoadOptions load;
   std::string bus = "socketcan:vcan0";
-  rt::ClockKind clock = rt::ClockKind::kWall;
-  std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
-  std::string log;      // LCM event log
-  std::string candump;  // CAN log
-  bool enable = false;  // the operator's wish to open the brakes
-  bool quiet = false;
-  bool lcm = true;
-  bool seccomp = false;  // any system call that a cycle does not need ends the program
+  ControlOptions control;
 };
 
 /// Prints help or one error line and ends the process (0 or 2) when there is nothing to run.

@@ -20,23 +20,19 @@
 #include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/process/second_arm.h"
 #include "reed/plant/process/stall_watch.h"
+#include "reed/plant/program/conclusion.h"
 #include "reed/plant/record/publisher.h"
 #include "reed/rt/monotonic.h"
 #include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
 #include "reed/rt/signals.h"
+#include "reed/rt/thread_stack.h"
 
 namespace reed::plant {
 namespace {
 
 /// A plant that waits for frames looks so often whether it shall stop.
 constexpr std::int64_t kStopCheck_ns = 60'000'000;
-
-void Say(const Options& options, const std::string& line) {
-  if (options.quiet) return;
-  std::printf("%s\n", line.c_str());
-  std::fflush(stdout);
-}
 
 std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
                                        bus::Transport& transport, ArmBody& body, Recorder& recorder,
@@ -63,6 +59,7 @@ void Serve(Endpoint& endpoint, double duration_s, const std::atomic<bool>& stop_
 }
 
 int Run(const Options& options) {
+  rt::UseSmallThreadStacks();
   const Scenario scenario = LoadScenario(options.config, options.load);
   const bool wall = options.clock == rt::ClockKind::kWall;
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
@@ -85,17 +82,10 @@ int Run(const Options& options) {
     }
   }
 
-  Say(options, "arm " + scenario.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
-                   ": waiting for SYNC on " + transport->interface());
+  Say(options.quiet, "arm " + scenario.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
+                         ": waiting for SYNC on " + transport->interface());
   Serve(*endpoint, options.duration_s, stop_wanted);
-
-  const bool log_complete = publisher.Finish();
-  Say(options, "done: " + std::to_string(endpoint->syncs()) + " cycles, " +
-                   std::to_string(endpoint->rejected()) + " frames refused, " +
-                   std::to_string(publisher.dropped()) + " records dropped");
-  if (!endpoint->failure().empty()) std::fprintf(stderr, "reed_plant_sim: %s\n", endpoint->failure().c_str());
-  const int status = ExitStatus(endpoint->outcome());
-  return status == 0 && !log_complete ? 3 : status;
+  return Conclude(*endpoint, publisher, options.quiet);
 }
 
 }  // namespace

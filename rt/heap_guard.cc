@@ -29,6 +29,8 @@ HeapCount::HeapCount() noexcept {
 HeapCount::~HeapCount() { t_counting = false; }
 std::int64_t HeapCount::calls() const noexcept { return t_calls; }
 void HeapCount::SetWitness(void (*witness)() noexcept) noexcept { g_witness = witness; }
+HeapPause::HeapPause() noexcept : counting_(t_counting) { t_counting = false; }
+HeapPause::~HeapPause() { t_counting = counting_; }
 bool HeapCount::Works() noexcept { return REED_HEAP_GUARD != 0; }
 
 }  // namespace reed::rt

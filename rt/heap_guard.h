@@ -25,4 +25,16 @@ class HeapCount {
   static bool Works() noexcept;
 };
 
+/// What this thread does for somebody else while this lives is not counted.
+class HeapPause {
+ public:
+  HeapPause() noexcept;
+  ~HeapPause();
+  HeapPause(const HeapPause&) = delete;
+  HeapPause& operator=(const HeapPause&) = delete;
+
+ private:
+  bool counting_;
+};
+
 }  // namespace reed::rt

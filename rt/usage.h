@@ -29,4 +29,12 @@ constexpr Usage operator-(const Usage& after, const Usage& before) noexcept {
           after.involuntary_switches - before.involuntary_switches};
 }
 
+constexpr Usage& operator+=(Usage& sum, const Usage& more) noexcept {
+  sum.minor_faults += more.minor_faults;
+  sum.major_faults += more.major_faults;
+  sum.voluntary_switches += more.voluntary_switches;
+  sum.involuntary_switches += more.involuntary_switches;
+  return sum;
+}
+
 }  // namespace reed::rt

@@ -24,6 +24,7 @@ ReceiveBatch::ReceiveBatch() {
 
 int ReceiveBatch::Receive(int fd, int limit) noexcept { return Receive(fd, limit, MSG_DONTWAIT); }
 int ReceiveBatch::ReceiveAll(int fd, int limit) noexcept { return Receive(fd, limit, 0); }
+int ReceiveBatch::ReceiveSome(int fd, int limit) noexcept { return Receive(fd, limit, MSG_WAITFORONE); }
 
 int ReceiveBatch::Receive(int fd, int limit, int flags) noexcept {
   const int count = std::min(limit, kMaxBatch);
@@ -77,13 +78,15 @@ int SendBatch::Send(int fd, int count) noexcept {
   return static_cast<int>(slots);
 }
 
-/// Slots 0 .. count-1 as messages: one each, or one for neighbours of equal size. Returns their number.
+/// Slots 0 .. count-1 as messages: one each, or one for neighbours that pass together. Returns their number.
 int SendBatch::Arrange(int count) noexcept {
   std::size_t messages = 0;
   const auto end = static_cast<std::size_t>(count);
   for (std::size_t first = 0, next = 0; first < end; first = next) {
     next = first + 1;
     while (together_ && next < end && vectors_[next].iov_len == vectors_[first].iov_len) ++next;
+    if (together_ && next < end && vectors_[next].iov_len < vectors_[first].iov_len)
+      ++next;  // the last segment
     msghdr& header = headers_[messages].msg_hdr;
     header.msg_iov = &vectors_[first];
     header.msg_iovlen = next - first;

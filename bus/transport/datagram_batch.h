@@ -47,6 +47,8 @@ class ReceiveBatch {
   /// The same with one system call for all of them: waits for `limit` datagrams, on a socket with a receive
   /// timeout for as long as none comes within it.
   int ReceiveAll(int fd, int limit) noexcept;
+  /// Waits likewise for one, and takes those that are there with it.
+  int ReceiveSome(int fd, int limit) noexcept;
   Datagram operator[](int i) const noexcept;
 
   /// Datagrams that the kernel dropped because the receive queue was full (SO_RXQ_OVFL), since the socket was
@@ -76,8 +78,8 @@ class SendBatch {
   SendBatch(const SendBatch&) = delete;
   SendBatch& operator=(const SendBatch&) = delete;
 
-  /// Neighbours of equal size pass the kernel's network stack as one from here on and become datagrams again
-  /// in the queues of their receivers (UDP_SEGMENT): the answer of five joints costs half as much and wakes
+  /// Neighbours of equal size, and one that is shorter behind them, pass the kernel's network stack as one from
+  /// here on and become datagrams again in the queues of their receivers (UDP_SEGMENT): the answer of five joints costs half as much and wakes
   /// who waits for it once. Where the kernel cannot, each goes alone. Set-up only.
   void PassEqualSizesTogether(int udp_socket) noexcept;
 

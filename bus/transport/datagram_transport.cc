@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "reed/rt/monotonic.h"
 
@@ -31,6 +32,7 @@ void DatagramTransport::Use(int receive_fd, int send_fd) noexcept {
 }
 
 int DatagramTransport::Receive(std::span<Frame> out, int wanted, std::int64_t deadline_ns) noexcept {
+  SendHeld();
   const int enough = std::min(wanted, static_cast<int>(out.size()));
   if (uring_.is_open()) return ReceiveByUring(out, enough, deadline_ns);
   const std::uint64_t enough_of_others = PassedOver(counters_) + kMostPassedOver;
@@ -84,8 +86,9 @@ int DatagramTransport::Drain(std::span<Frame> out) noexcept {
 
 /// One system call for all the frames that are waited for, when there is time: no look before, no poll.
 int DatagramTransport::Await(std::span<Frame> out, int wanted) noexcept {
-  const int limit = std::min({wanted, kMaxBatch, static_cast<int>(out.size())});
-  return Read(received_, received_.ReceiveAll(receive_fd_, limit), out);
+  const int room = std::min(kMaxBatch, static_cast<int>(out.size()));
+  if (wanted == 1) return Read(received_, received_.ReceiveSome(receive_fd_, room), out);
+  return Read(received_, received_.ReceiveAll(receive_fd_, std::min(wanted, room)), out);
 }
 
 /// Datagrams that are no frames for us do not count, so it may take another turn.
@@ -115,6 +118,24 @@ int DatagramTransport::Read(const Batch& batch, int got, std::span<Frame> out) n
 }
 
 int DatagramTransport::Send(std::span<const Frame> frames) noexcept {
+  if (!holds_ || frames.size() > held_.size()) {
+    SendHeld();
+    return Pass(frames);
+  }
+  if (held_count_ + frames.size() > held_.size()) SendHeld();
+  std::copy(frames.begin(), frames.end(), held_.begin() + static_cast<std::ptrdiff_t>(held_count_));
+  held_count_ += frames.size();
+  counters_.frames_tx += frames.size();  // as if they had left; what the kernel refuses is taken back
+  return static_cast<int>(frames.size());
+}
+
+void DatagramTransport::SendHeld() noexcept {
+  if (held_count_ == 0) return;
+  counters_.frames_tx -= held_count_;
+  Pass(std::span<const Frame>(held_).first(std::exchange(held_count_, 0)));
+}
+
+int DatagramTransport::Pass(std::span<const Frame> frames) noexcept {
   std::size_t taken = 0;
   while (taken < frames.size()) {
     const int count = static_cast<int>(std::min<std::size_t>(kMaxBatch, frames.size() - taken));

@@ -3,6 +3,7 @@
 // construction.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "reed/bus/transport/datagram_batch.h"
@@ -21,6 +22,11 @@ class DatagramTransport : public Transport {
   /// From here on the calling thread alone receives, and waits with one system call where the kernel can.
   /// False: it cannot, and two calls do the same. Set-up only.
   bool ReceiveOnThisThread() { return uring_.Open(receive_fd_); }
+  /// From here on frames leave with the next Receive, all together: who sends last thing in a cycle and first
+  /// thing in the next, and then waits, pays the kernel once, and wakes the other side once. Set-up only.
+  void SendWithNextReceive() noexcept { holds_ = true; }
+  /// Frames that no Receive followed leave now.
+  void SendHeld() noexcept;
   const TransportCounters& counters() const noexcept final { return counters_; }
 
  protected:
@@ -37,7 +43,10 @@ class DatagramTransport : public Transport {
   virtual std::size_t Write(const Frame& frame,
                             std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept = 0;
 
+  static constexpr std::size_t kMostHeld = 4;
+
   bool Take(Incoming incoming) noexcept;
+  int Pass(std::span<const Frame> frames) noexcept;
   int Drain(std::span<Frame> out) noexcept;
   int Await(std::span<Frame> out, int wanted) noexcept;
   int ReceiveByUring(std::span<Frame> out, int enough, std::int64_t deadline_ns) noexcept;
@@ -48,6 +57,9 @@ class DatagramTransport : public Transport {
   int receive_fd_ = -1;
   int send_fd_ = -1;
   bool alive_ = true;
+  bool holds_ = false;
+  std::array<Frame, kMostHeld> held_{};
+  std::size_t held_count_ = 0;
   bool drops_own_ = false;
   std::uint64_t own_dropped_ = 0;
   UringReceiver uring_;

@@ -45,4 +45,12 @@ bool ReceiveOnThisThread(Transport& transport) {
   return datagrams != nullptr && datagrams->ReceiveOnThisThread();
 }
 
+void SendWithNextReceive(Transport& transport) {
+  if (auto* const datagrams = dynamic_cast<DatagramTransport*>(&transport)) datagrams->SendWithNextReceive();
+}
+
+void SendHeld(Transport& transport) {
+  if (auto* const datagrams = dynamic_cast<DatagramTransport*>(&transport)) datagrams->SendHeld();
+}
+
 }  // namespace reed::bus

@@ -17,4 +17,10 @@ std::unique_ptr<Transport> OpenTransport(std::string_view name,
 /// can (uring_receiver.h). False: it cannot, or forbids it; two calls then do the same.
 bool ReceiveOnThisThread(Transport& transport);
 
+/// From here on what is sent leaves with the next Receive: in lockstep the command of a cycle and the SYNC of
+/// the next have nothing to wait for between them. No difference on a bus in memory.
+void SendWithNextReceive(Transport& transport);
+/// At the end: what no Receive followed leaves now.
+void SendHeld(Transport& transport);
+
 }  // namespace reed::bus

@@ -1,5 +1,6 @@
-// The bus as both programs see it: one small interface, two transports behind it
-// (socketcan_transport.h: vcan0, can0; udp_transport.h: python-can's udp_multicast format).
+// The bus as both programs see it: one small interface, three transports behind it
+// (socketcan_transport.h: vcan0, can0; udp_transport.h: python-can's udp_multicast format;
+// memory_transport.h: within one process).
 #pragma once
 
 #include <cstdint>
@@ -49,7 +50,7 @@ class Transport {
 
   virtual const TransportCounters& counters() const noexcept = 0;
 
-  /// "socketcan" or "udp", and the interface or GROUP:PORT. RT: set-up only.
+  /// "socketcan", "udp" or "memory", and the interface or GROUP:PORT. RT: set-up only.
   virtual std::string kind() const = 0;
   virtual std::string interface() const = 0;
 };

@@ -27,7 +27,7 @@ class CandumpLog {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::string interface_;
+  std::string middle_;  // of a line: ") name "
   RecordBuffer buffer_ = MakeRecordBuffer();
   std::unique_ptr<std::FILE, Close> stream_;
   RecordFile file_;

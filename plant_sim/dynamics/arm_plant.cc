@@ -59,6 +59,8 @@ class ArmPlant::Impl {
     const int n = chain_.dof();
     if (motor_angle_rad.size() != n)
       throw std::invalid_argument("ArmPlant::Reset: one angle per motor is needed");
+    if (untouched_ && motor_angle_rad == rest_rad_) return;
+    untouched_ = false;
     t_ = 0.0;
     schedule_from_ = kNever;
     braked_ = false;
@@ -74,11 +76,14 @@ class ArmPlant::Impl {
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
     UpdateTruth();
+    rest_rad_ = motor_angle_rad;
+    untouched_ = true;
   }
 
   void Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {
     const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / config_.max_step_s - 1e-9)));
     const double h = dt_s / steps;
+    untouched_ = false;
     begin_.motor_torque = end_.motor_torque = motor_torque_Nm;
     OperateBrakes(braked);
     for (int i = 0; i < steps && sick_coordinate_ < 0; ++i) {
@@ -94,7 +99,10 @@ class ArmPlant::Impl {
     UpdateTruth();
   }
 
-  void StartSchedule() { schedule_from_ = t_; }
+  void StartSchedule() {
+    untouched_ = false;
+    schedule_from_ = t_;
+  }
 
   const Truth& truth() const { return truth_; }
 
@@ -176,6 +184,8 @@ class ArmPlant::Impl {
   double t_ = 0.0;
   double schedule_from_ = kNever;  // in t_
   bool braked_ = false, loaded_ = false;
+  VectorXd rest_rad_;       // of the last Reset
+  bool untouched_ = false;  // since then: the same again changes nothing, and takes as long as 50 cycles
   int sick_coordinate_ = -1;
 };
 

@@ -118,6 +118,36 @@ TEST_F(UdpBus, NeighboursOfEqualSizeStayDatagramsOfTheirOwnInOrder) {  // UDP_SE
   EXPECT_EQ(a_.counters().frames_tx, sent.size());
 }
 
+TEST_F(UdpBus, HeldFramesLeaveTogetherWithTheNextReceive) {
+  a_.SendWithNextReceive();
+  Encoder encoder;
+  const std::array<Frame, 1> command{encoder.Command({5, DriveRequest::kEnable, {8, 7, 6, 5, 4, 3, 2, 1}})};
+  const std::array<Frame, 1> sync{encoder.Sync({6})};
+  EXPECT_EQ(a_.Send(command), 1);
+  EXPECT_EQ(a_.Send(sync), 1);
+  EXPECT_EQ(a_.counters().frames_tx, 2U) << "as on any other bus";
+  std::array<Frame, 8> out{};
+  EXPECT_EQ(b_.Receive(out, 1, 0), 0);
+  EXPECT_EQ(a_.Receive(out, 1, 0), 0);
+  const std::vector<Frame> got = Take(b_, 1);
+  ASSERT_EQ(got.size(), 2U) << "one call takes both";
+  EXPECT_EQ(got[0].data, command[0].data);
+  EXPECT_EQ(got[1].data, sync[0].data);
+  EXPECT_EQ(a_.counters().frames_tx, 2U);
+
+  std::vector<Frame> many;
+  for (int n = 0; n < 11; ++n) many.push_back(NumberedFrame(n));
+  for (const Frame& frame : many)
+    EXPECT_EQ(a_.Send(std::span(&frame, 1)), 1) << "more than are held: in order";
+  a_.SendHeld();
+  EXPECT_EQ(Take(b_, 11).size(), 11U);
+  EXPECT_EQ(a_.Send(many), 11) << "too many to be held";
+  const std::vector<Frame> at_once = Take(b_, 11);
+  ASSERT_EQ(at_once.size(), 11U);
+  for (int n = 0; n < 11; ++n) EXPECT_EQ(NumberOf(at_once[static_cast<std::size_t>(n)]), n);
+  EXPECT_EQ(a_.counters().frames_tx, 24U);
+}
+
 TEST_F(UdpBus, AnIdentifierThatIsNotInTheDbcIsCountedAndHandedToNobody) {
   Frame foreign = NumberedFrame(1);
   foreign.id = 0x7AB;

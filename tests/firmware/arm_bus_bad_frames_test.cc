@@ -150,7 +150,7 @@ TEST_F(ArmBusTest, ABabblingBusCannotHoldTheLoop) {
   babble.id = 0x7AB;
   for (int i = 0; i < 5000; ++i) Put(babble);
   EXPECT_FALSE(Receive());
-  EXPECT_GT(wire_.controller.inbox.size(), 4000U) << "the rest waits";
+  EXPECT_GT(wire_.controller.inbox().size(), 4000U) << "the rest waits";
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST_F(ArmBusTest, AClockThatStoodStillIsBelievedOfASimulatedArmOnly) {
     ArmBus<kN> bus(wire_.controller);
     bus::Encoder peer;
     for (const bool stood : {true, false}) {
-      wire_.controller.inbox.clear();
+      wire_.controller.inbox().clear();
       bus.SendSync(stood ? 7 : 8, tap_);
       bus::JointStateMessage state{0.1, 0.0, 0.0, bus::DriveState::kReady,
                                    static_cast<std::uint8_t>(stood ? 7 : 8)};

@@ -1,5 +1,5 @@
 // Controller and plant in one process and in virtual time: the real cycle, the real plant endpoint, a wire in
-// memory on which frames can be lost, changed and invented. Only tests may link both.
+// memory on which frames can be lost, changed and invented.
 #pragma once
 
 #include <functional>
@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "reed/bus/codec/messages.h"
+#include "reed/bus/transport/memory_transport.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/firmware/cycle/make_cycle.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/rt/clock.h"
 #include "reed/rt/heap_guard.h"
-#include "reed/tests/support/fake_transport.h"
 
 namespace reed::test {
 
@@ -26,39 +26,6 @@ class LastTruth final : public plant::Recorder {
   plant::PlantRecord last;
 };
 
-/// The controller's end of the wire: when it waits for answers, the plant works.
-class PlantBehindWire final : public bus::Transport {
- public:
-  PlantBehindWire(FakeTransport& end, std::function<void()> plant) : end_(end), plant_(std::move(plant)) {}
-
-  int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
-    const std::int64_t before = Calls();
-    plant_();
-    const int received = end_.Receive(out, wanted, deadline_ns);
-    heap_calls += Calls() - before;
-    return received;
-  }
-  int Send(std::span<const bus::Frame> frames) noexcept override {
-    const std::int64_t before = Calls();
-    const int sent = end_.Send(frames);
-    heap_calls += Calls() - before;
-    return sent;
-  }
-  bool alive() const noexcept override { return end_.alive(); }
-  const bus::TransportCounters& counters() const noexcept override { return end_.counters(); }
-  std::string kind() const override { return end_.kind(); }
-  std::string interface() const override { return end_.interface(); }
-
-  const rt::HeapCount* counting = nullptr;  // there is one count per thread at a time
-  std::int64_t heap_calls = 0;              // of the plant and of the wire, which are not the controller's
-
- private:
-  std::int64_t Calls() const noexcept { return counting != nullptr ? counting->calls() : 0; }
-
-  FakeTransport& end_;
-  std::function<void()> plant_;
-};
-
 class SilRig {
  public:
   /// Decides about one frame on its way to the controller: false loses it, changes are allowed.
@@ -68,8 +35,9 @@ class SilRig {
       : scenario_(scenario),
         body_(scenario_),
         endpoint_(scenario_, wire_.plant, body_, truth_),
-        transport_(wire_.controller, [this] { LetPlantWork(); }),
-        cycle_(MakeCycle(scenario_, transport_, enable)) {}
+        cycle_(MakeCycle(scenario_, wire_.controller, enable)) {
+    wire_.controller.OnReceive([this] { LetPlantWork(); });
+  }
 
   /// One cycle; what happened is in snapshot() and truth().
   CycleStatus Run(const CycleState& loop = {}) {
@@ -77,11 +45,8 @@ class SilRig {
     snapshot_.cycle = number_;
     snapshot_.time_ns = rt::MonotonicClock{}.NowNs();
     const rt::HeapCount count;
-    transport_.counting = &count;
-    const std::int64_t others_before = transport_.heap_calls;
     const CycleStatus status = cycle_->Run(number_, 0, loop, snapshot_);
-    heap_calls_ += count.calls() - (transport_.heap_calls - others_before);
-    transport_.counting = nullptr;
+    heap_calls_ += count.calls();
     ++number_;
     return status;
   }
@@ -117,22 +82,22 @@ class SilRig {
 
  private:
   void LetPlantWork() {
+    const rt::HeapPause not_the_controllers;
     if (commands_lost)
-      std::erase_if(wire_.plant.inbox,
+      std::erase_if(wire_.plant.inbox(),
                     [](const bus::Frame& frame) { return frame.id == bus::layout::kCommand.id; });
     endpoint_.Poll(0);
-    std::deque<bus::Frame>& inbox = wire_.controller.inbox;
+    std::vector<bus::Frame>& inbox = wire_.controller.inbox();
     if (on_the_way) std::erase_if(inbox, [this](bus::Frame& frame) { return !on_the_way(number_, frame); });
-    if (injected) inbox.push_front(*injected);
+    if (injected) inbox.insert(inbox.begin(), *injected);
     injected.reset();
   }
 
   Scenario scenario_;
-  FakeWire wire_;
+  bus::MemoryWire wire_;
   plant::FlexibleArmBody body_;
   LastTruth truth_;
   plant::LockstepEndpoint endpoint_;
-  PlantBehindWire transport_;
   std::unique_ptr<CycleBase> cycle_;
   telemetry::Snapshot snapshot_;
   std::uint32_t number_ = 0;

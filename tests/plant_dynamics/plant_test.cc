@@ -30,18 +30,26 @@ Scenario Pressing() {
 VectorXd Torque(int i) { return VectorXd::LinSpaced(5, 3.0, -1.0) * std::sin(0.05 * i); }
 
 TEST(ArmPlant, EqualRunsAreEqualBitForBit) {
-  ArmPlant a(Pressing()), b(Pressing());
+  ArmPlant a(Pressing()), b(Pressing()), c(Pressing());
   a.Reset(test::MidPose());
   for (int i = 0; i < 50; ++i) b.Advance(Torque(i), false, 1e-3);  // a past does not matter
   b.Reset(test::MidPose());
+  c.Reset(test::MidPose());
+  c.StartSchedule();
+  c.Reset(test::MidPose());  // nor that it was at rest here already,
+  c.Reset(test::MidPose());  // once or more often
   a.StartSchedule();
   b.StartSchedule();
+  c.StartSchedule();
   for (int i = 0; i < 300; ++i) {
     a.Advance(Torque(i), i > 250, 1e-3);
     b.Advance(Torque(i), i > 250, 1e-3);
-    ASSERT_EQ(a.truth().motor_angle_rad, b.truth().motor_angle_rad) << i;
-    ASSERT_EQ(a.truth().tip_velocity_mps, b.truth().tip_velocity_mps) << i;
-    ASSERT_EQ(a.truth().contact_force_N, b.truth().contact_force_N) << i;
+    c.Advance(Torque(i), i > 250, 1e-3);
+    for (const ArmPlant* other : {&b, &c}) {
+      ASSERT_EQ(a.truth().motor_angle_rad, other->truth().motor_angle_rad) << i;
+      ASSERT_EQ(a.truth().tip_velocity_mps, other->truth().tip_velocity_mps) << i;
+      ASSERT_EQ(a.truth().contact_force_N, other->truth().contact_force_N) << i;
+    }
   }
 }
 

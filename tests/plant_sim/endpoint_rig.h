@@ -114,7 +114,7 @@ class FakeController {
 
   Answer Take() {
     Answer answer;
-    for (const bus::Frame& frame : transport_.inbox) {
+    for (const bus::Frame& frame : transport_.inbox()) {
       const bus::Decoded d = decoder_.Decode(frame);
       EXPECT_EQ(d.reject, bus::Reject::kNone);
       answer.ids.push_back(frame.id);
@@ -122,7 +122,7 @@ class FakeController {
       if (d.kind == bus::MessageKind::kJointState) answer.joints.push_back(d.joint_state);
       if (d.kind == bus::MessageKind::kWrench) answer.wrenches.push_back(d.wrench);
     }
-    transport_.inbox.clear();
+    transport_.inbox().clear();
     return answer;
   }
 

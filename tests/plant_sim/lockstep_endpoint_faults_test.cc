@@ -60,7 +60,7 @@ TEST_F(Lockstep, AnotherLayoutEndsTheProgramWithOneLineAndExit2AndNoAnswer) {
   EXPECT_EQ(ExitStatus(endpoint_->outcome()), 2);
   EXPECT_NE(endpoint_->failure().find("layout " + std::to_string(bus::layout::kLayoutId)), std::string::npos);
   EXPECT_EQ(endpoint_->failure().find('\n'), std::string::npos);
-  EXPECT_TRUE(wire_.controller.inbox.empty());
+  EXPECT_TRUE(wire_.controller.inbox().empty());
 }
 
 TEST_F(Lockstep, ACycleNumberThatGoesBackRestartsTheArm) {
@@ -100,7 +100,7 @@ TEST_F(Lockstep, ANewControllerWithFreshCountersIsServedFromItsFirstFrames) {
   for (std::uint32_t k = 0; k < 4; ++k) {
     second.Sync(k);
     endpoint_->Poll(0);
-    wire_.controller.inbox.clear();
+    wire_.controller.inbox().clear();
     second.Command(k, k == 0 ? DriveRequest::kReady : DriveRequest::kEnable);
     endpoint_->Poll(0);
     states.push_back(state());
@@ -134,7 +134,7 @@ TEST_F(Lockstep, FramesOfNobodysConcernAreIgnored) {
   endpoint_->Poll(0);
   EXPECT_EQ(endpoint_->syncs(), 0);
   EXPECT_EQ(endpoint_->rejected(), 2U);
-  EXPECT_TRUE(wire_.controller.inbox.empty());
+  EXPECT_TRUE(wire_.controller.inbox().empty());
 }
 
 TEST_F(Lockstep, ADamagedStateFrameIsNoOtherArm) {

@@ -225,7 +225,7 @@ TEST_F(Wall, ANewControllerFindsTheArmAtItsStart) {
   Enable();
   for (std::uint32_t k = 2; k < 40; ++k) Cycle(k, DriveRequest::kEnable, kTau_Nm);
   FakeController second(wire_.controller);
-  wire_.controller.inbox.clear();
+  wire_.controller.inbox().clear();
   second.Sync(0);
   At(60 * kMs);
   EXPECT_EQ(state(), DriveState::kOff);

@@ -72,6 +72,21 @@ TEST_F(HeapCountTest, ArithmeticCountsNothing) {
   EXPECT_EQ(CallsIn([&] { x = x * 2.0; }), 0);
 }
 
+TEST_F(HeapCountTest, WhatIsDoneForOthersInAPauseIsNotCounted) {
+  const HeapCount count;
+  {
+    const HeapPause pause;
+    {
+      const HeapPause within;
+      Use(std::make_unique<int>(1).get());
+    }
+    Use(std::make_unique<int>(2).get());
+  }
+  EXPECT_EQ(count.calls(), 0);
+  Use(std::make_unique<int>(3).get());
+  EXPECT_EQ(count.calls(), 2) << "and all after it is";
+}
+
 TEST_F(HeapCountTest, CountsOnlyTheThreadThatAskedAndOnlyWhileItAsks) {
   std::atomic<bool> stop{false};
   std::atomic<int> made{0};

@@ -1,4 +1,4 @@
-"""Every scenario of the five-joint arm, once, in lockstep, by the two programs themselves: each ends with its checks held.
+"""Every scenario of the five-joint arm, once, in lockstep, by both sides in one process: each ends with its checks held.
 Long ones are cut where what they show has been seen."""
 
 import json
@@ -11,9 +11,9 @@ import tomllib
 import pytest
 
 from reed_tools.figures import summary
-from reed_tools.paths import ROOT, program
+from reed_tools.paths import ROOT
 from reed_tools.record import telemetry_log
-from reed_tools.run import bus_choice, hil, scenario
+from reed_tools.run import hil, plans, scenario
 
 SCENARIOS = sorted(path.stem for path in (ROOT / "config/scenarios").glob("*.toml") if tomllib.loads(path.read_text())["arm"] == "a5")
 SHORTER_S = {"wall_soft": 3.0, "fluctuating_unknown": 3.0, "free_motion": 3.0,
@@ -25,11 +25,8 @@ def run_and_judge(name, folder, *entries):
     """(outcome, summary) without pictures and page."""
     config = folder / "effective.toml"
     effective = scenario.write_effective(name, None, list(entries), config)
-    bus = bus_choice.udp(BUS)
-    with bus_choice.held(bus):
-        most = int((effective["scenario"]["duration_s"] + 60.0) * effective["timing"]["rate_hz"])
-        plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(config), bus, "lockstep", str(folder), most)
-        outcome = hil.run_pair(plan, lambda mode, t_s: None)
+    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder)
+    outcome = hil.run(plan, lambda mode, t_s: None)
     return outcome, summary.build(folder, telemetry_log.load(plan.log("firmware"), plan.log("plant")))[0]
 
 
@@ -37,7 +34,7 @@ def run_and_judge(name, folder, *entries):
 def test_scenario_holds_its_checks(name, tmp_path):
     entries = [f"scenario.duration_s={SHORTER_S[name]}"] if name in SHORTER_S else []
     outcome, figures = run_and_judge(name, tmp_path, *entries)
-    assert (outcome.firmware_status, outcome.plant_status, outcome.stopped_because) == (0, 0, "")
+    assert (outcome.statuses, outcome.stopped_because) == ({"one_process": 0}, "")
     broken = [check for check in figures["checks"] if not check["ok"]]
     assert figures["verdict"] == "pass" and not broken, broken
     assert len(figures["checks"]) >= 3, "a scenario says what it is to show"

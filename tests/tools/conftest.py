@@ -1,4 +1,4 @@
-"""A build directory whose two programs are stand-ins (fake_program.py); configuration and message types are real."""
+"""A build directory whose programs are stand-ins (fake_program.py); configuration and message types are real."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ def fake_build(tmp_path_factory):
     (build / "bin").mkdir()
     (build / "lcmtypes").symlink_to(BUILD / "lcmtypes")
     (build / "bin" / "reed_config").symlink_to(BUILD / "bin" / "reed_config")
-    for name in ("reed_firmware", "reed_plant_sim"):
+    for name in ("reed_firmware", "reed_plant_sim", "reed_one_process"):
         path = build / "bin" / name
         path.write_text(f"#!{sys.executable}\nimport sys\nsys.path[:0] = {[str(ROOT / 'tools'), str(HERE)]!r}\n"
                         "import fake_program\nsys.exit(fake_program.main())\n")

@@ -1,5 +1,5 @@
-"""Stands in for reed_firmware and reed_plant_sim: same options, same exit statuses, a synthetic log. What it does comes from
-REED_FAKE_FIRMWARE and REED_FAKE_PLANT: ok (default), complain, refuse, die, endless or late (a plant)."""
+"""Stands in for reed_firmware, reed_plant_sim and reed_one_process: same options, same exit statuses, synthetic logs. What it does
+comes from REED_FAKE_FIRMWARE, REED_FAKE_PLANT, REED_FAKE_ONE_PROCESS: ok (default), complain, refuse, die, endless or late (a plant)."""
 
 import argparse
 import ctypes
@@ -14,10 +14,10 @@ import synthetic_run
 
 
 def main() -> int:
-    name = "plant" if "plant" in Path(sys.argv[0]).name else "firmware"
+    name = {"reed_plant_sim": "plant", "reed_firmware": "firmware"}.get(Path(sys.argv[0]).name, "one_process")
     behaviour = os.environ.get(f"REED_FAKE_{name.upper()}", "ok")
     parser = argparse.ArgumentParser()
-    for option in ("--config", "--bus", "--clock", "--log", "--candump"):
+    for option in ("--config", "--bus", "--clock", "--log", "--plant-log", "--candump"):
         parser.add_argument(option)
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")
@@ -26,9 +26,9 @@ def main() -> int:
     stopped = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopped.append(True))
-    Path(options.log).with_suffix(".pid").write_text(str(os.getpid()))
-    Path(options.log).with_suffix(".stack").write_text(str(resource.getrlimit(resource.RLIMIT_STACK)[0]))
-    Path(options.log).with_suffix(".options").write_bytes(os.fsencode(" ".join(sys.argv[1:])))
+    for ending, content in (("pid", str(os.getpid())), ("stack", str(resource.getrlimit(resource.RLIMIT_STACK)[0])),
+                            ("options", " ".join(sys.argv[1:]))):
+        (Path(options.log).parent / f"{name}.{ending}").write_bytes(os.fsencode(content))
     if behaviour == "refuse":
         print("arm.dh: 9 joints, at most 8 are allowed", file=sys.stderr)
         return 2
@@ -41,7 +41,8 @@ def main() -> int:
     if name == "firmware":
         (Path(options.log).parent / "plant_had_said").write_text((Path(options.log).parent / "plant.txt").read_text())
         hear_the_plant(Path(options.log).parent)
-    write_own_log(name, Path(options.log), options.clock)
+    for log in filter(None, (options.log, options.plant_log)):
+        write_own_log(Path(log), options.clock or "lockstep")
     if behaviour == "die":
         print("bus lost: vcan0 went away", file=sys.stderr)
         return 3
@@ -60,9 +61,9 @@ def hear_the_plant(folder: Path, patience_s: float = 20.0) -> None:
         time.sleep(0.01)
 
 
-def write_own_log(name: str, path: Path, clock: str) -> None:
-    scratch = synthetic_run.write(path.parent / f"scratch-{name}", [], duration_s=1.0, clock=clock)
-    (scratch / f"{name}.lcmlog").rename(path)
+def write_own_log(path: Path, clock: str) -> None:
+    scratch = synthetic_run.write(path.parent / f"scratch-{path.stem}", [], duration_s=1.0, clock=clock)
+    (scratch / path.name).rename(path)
 
 
 if __name__ == "__main__":

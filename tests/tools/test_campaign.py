@@ -150,7 +150,7 @@ def test_a_broken_limit_of_zero_is_worse_than_any_ratio():
     assert bad.stable and bad.ratio == math.inf and bad.deciding["name"] == "faults"
 
 
-# ---- with stand-ins for the two programs ----
+# ---- with a stand-in for the program ----
 
 
 @pytest.fixture
@@ -210,7 +210,7 @@ def test_an_interrupted_campaign_keeps_its_finished_draws(reed, small, tmp_path)
 
 def test_a_program_that_dies_is_status_3_and_its_draw_is_run_again(reed, small, tmp_path):
     folder = tmp_path / "out"
-    done = reed("campaign", small, "--count", 1, "--out", folder, REED_FAKE_PLANT="die")
+    done = reed("campaign", small, "--count", 1, "--out", folder, REED_FAKE_ONE_PROCESS="die")
     assert "bus lost" in one_line(done, 3)
     suite = xml.parse(folder / "junit.xml").getroot()
     assert suite.get("errors") == "1"

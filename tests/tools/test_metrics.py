@@ -222,17 +222,18 @@ def test_foreign_logplayer_reads_the_merged_log(tmp_path):
 
 
 def test_decoding_at_once_equals_the_generated_classes(tmp_path):
-    from reed_tools.record.message_layout import decode_all
-    from reed_tools.record.telemetry_log import TABLES
+    from reed_tools.record.message_layout import decode_all, joined
+    from reed_tools.record.telemetry_log import TABLES, payloads as blocks_of
     import reed
 
     folder = recorded(tmp_path, duration_s=0.2)
     payloads = {}
     for _, channel, data in events(folder / "telemetry.lcmlog"):
         payloads.setdefault(channel, []).append(data)
+    blocks = blocks_of(folder / "telemetry.lcmlog")
     for channel, name in TABLES.items():
         kind = getattr(reed, name)
-        at_once = decode_all(kind, name, payloads[channel])
+        at_once = decode_all(kind, name, joined(name, blocks[channel]))
         for row, data in enumerate(payloads[channel]):
             message = kind.decode(data)
             for field in kind.__slots__:
@@ -241,13 +242,35 @@ def test_decoding_at_once_equals_the_generated_classes(tmp_path):
 
 def test_a_log_of_two_different_arms_is_refused():
     from reed_tools.errors import RunError
-    from reed_tools.record.message_layout import decode_all
+    from reed_tools.record.message_layout import joined
     import reed
 
     one, two = reed.adaptation_t(), reed.adaptation_t()
     two.num, two.p_hat, two.eta_hat = 1, [1.0], [1.0]
     with pytest.raises(RunError, match="not of one run"):
-        decode_all(reed.adaptation_t, "adaptation_t", [one.encode(), two.encode()])
+        joined("adaptation_t", [np.frombuffer(message.encode(), np.uint8)[np.newaxis] for message in (one, two)])
+
+
+def test_a_log_is_read_in_blocks_as_one_by_one_and_a_damaged_one_as_far_as_liblcm_reads_it(tmp_path):
+    from reed_tools.record import event_log
+    from reed_tools.record.telemetry_log import payloads
+
+    path = recorded(tmp_path, duration_s=0.5) / "telemetry.lcmlog"
+    whole = path.read_bytes()
+    half, record = len(whole) // 2, whole.index(bytes.fromhex("EDA1DA01"), 1000)
+    damaged = {"whole": whole, "cut": whole[:half], "within a head": whole[:record + 10], "nothing": b"",
+               "noise between records": whole[:record] + b"noise" + whole[record:],
+               "a byte changed": whole[:record + 2] + b"?" + whole[record + 3:]}
+    for name, content in damaged.items():
+        path.write_bytes(content)
+        one_by_one = {}
+        for _, channel, data in events(path):
+            one_by_one.setdefault(channel, []).append(data)
+        at_once = {channel: [row.tobytes() for block in blocks for row in block] for channel, blocks in payloads(path).items()}
+        assert at_once == one_by_one, name
+    path.write_bytes(damaged["cut"])
+    with pytest.raises(ValueError):
+        event_log.read(path)
 
 
 @pytest.mark.parametrize("clock", ["wall", "lockstep"])

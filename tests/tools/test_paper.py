@@ -178,10 +178,10 @@ def test_what_ran_before_is_kept_and_what_changed_runs(stand_ins, tmp_path):
 
 
 def test_a_program_that_dies_ends_the_command_with_its_words(stand_ins, tmp_path, monkeypatch):
-    monkeypatch.setenv("REED_FAKE_FIRMWARE", "die")
+    monkeypatch.setenv("REED_FAKE_ONE_PROCESS", "die")
     with pytest.raises(RunError, match="one: .*bus lost"):
         run_all([short("one")], tmp_path)
-    monkeypatch.delenv("REED_FAKE_FIRMWARE")
+    monkeypatch.delenv("REED_FAKE_ONE_PROCESS")
     assert run_all([short("one")], tmp_path)[1] == [("started", "one"), ("done", "one")]
 
 

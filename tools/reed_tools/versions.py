@@ -3,6 +3,7 @@
 import hashlib
 import subprocess
 import tomllib
+from collections.abc import Iterable
 
 from reed_tools.paths import ROOT, program
 
@@ -27,10 +28,10 @@ def git(*arguments: str) -> str:
     return done.stdout.strip() if done.returncode == 0 else ""
 
 
-def build() -> str:
-    """Of the two programs: runs of different builds need not be equal."""
+def build(programs: Iterable[str] = PROGRAMS) -> str:
+    """Of the programs of a run: runs of different builds need not be equal."""
     total = hashlib.sha256()
-    for name in PROGRAMS:
+    for name in programs:
         total.update(program(name).read_bytes())
     return total.hexdigest()[:12]
 

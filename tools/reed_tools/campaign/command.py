@@ -5,15 +5,14 @@ import os
 import re
 import shutil
 import tempfile
-from contextlib import ExitStack
 from pathlib import Path
 
 from reed_tools import folders, versions
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
-from reed_tools.campaign.workers import Workers, free_bus
+from reed_tools.campaign.workers import Workers
 from reed_tools.errors import RunError, UsageError
-from reed_tools.run import bus_choice, scenario
+from reed_tools.run import hil, plans, scenario
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
 OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
@@ -48,12 +47,10 @@ def run(arguments) -> int:
     pending = [index for index in indices if index not in finished]
     jobs = arguments.jobs or len(os.sched_getaffinity(0))
     print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
-    bus_choice.require_multicast_route()
-    with ExitStack() as stack:
-        build, buses = versions.build(), [free_bus(stack) for _ in range(jobs)]
-        interrupted = run_pending(folder, campaign, pending, buses, build, finished)
-        records = [finished[index] for index in indices if index in finished]
-        repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, buses, build)
+    build = versions.build(plans.names(hil.MEMORY).values())
+    interrupted = run_pending(folder, campaign, pending, jobs, build, finished)
+    records = [finished[index] for index in indices if index in finished]
+    repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, jobs, build)
     return conclude(folder, campaign, len(indices), records, repeats, interrupted)
 
 
@@ -117,11 +114,11 @@ def selected(campaign: Campaign, options: dict) -> list[int]:
     return indices
 
 
-def run_pending(folder: Path, campaign: Campaign, pending: list[int], buses: list[str], build: str, finished: dict) -> bool:
+def run_pending(folder: Path, campaign: Campaign, pending: list[int], jobs: int, build: str, finished: dict) -> bool:
     """Fills `finished` and the folder's file; True when interrupted."""
     if not pending:
         return False
-    with Workers(campaign, pending, len(buses), build, buses) as workers:
+    with Workers(campaign, pending, jobs, build) as workers:
         with progress.shown(campaign.name, len(pending)) as on_record:
             for record in workers.records():
                 draws.append(folder, record)
@@ -130,12 +127,12 @@ def run_pending(folder: Path, campaign: Campaign, pending: list[int], buses: lis
     return workers.interrupted
 
 
-def run_again(campaign: Campaign, records: list, count: int, buses: list[str], build: str) -> list:
+def run_again(campaign: Campaign, records: list, count: int, jobs: int, build: str) -> list:
     """The worst draws of this build a second time: equal digests mean equal runs."""
     worst = [record.index for record in draws.worst_first(records) if record.build == build and record.digest][:count]
     if not worst:
         return []
-    with Workers(campaign, worst, len(buses), build, buses) as workers:
+    with Workers(campaign, worst, jobs, build) as workers:
         return list(workers.records())
 
 

@@ -1,5 +1,7 @@
-"""Draws run side by side: one worker process per core, each with a bus of its own; results come back as records."""
+"""Draws run side by side: one worker process per core, each draw in one process on a bus in memory; results come back as records."""
 
+import contextlib
+import functools
 import multiprocessing
 import os
 import queue
@@ -10,52 +12,57 @@ from pathlib import Path
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
 from reed_tools.errors import ReedError, RunError, UsageError
-from reed_tools.paths import program
-from reed_tools.run import bus_choice, hil, scenario
+from reed_tools.run import hil, plans, scenario
 
-PORTS = range(45100, 45900)
-START_S = 60.0      # from the first SYNC to an active arm, at most
 STOPPED, REFUSED = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 POLL_S = 0.2
+NOT_READ_BY_FIGURES = ("wall.", "plant.", "force.", "disturbance.", "sensors.", "drives.", "scenario.seed")
 
 
-def free_bus(stack) -> str:
-    if bus := bus_choice.free_udp(stack, PORTS):
-        return bus
-    raise UsageError(f"no free software bus: ports {PORTS[0]} to {PORTS[-1]} are all in use by other runs")
+def known_to_figures(campaign: Campaign, index: int) -> dict:
+    """A draw's configuration as far as figures read it. The program reads and checks all of it; where no figure can differ, it is
+    not written and parsed again for every draw."""
+    if all(drawn.key.startswith(NOT_READ_BY_FIGURES) for drawn in campaign.drawn):
+        with contextlib.suppress(UsageError):  # what is wrong without the drawn numbers may be right with them
+            return effective_of(campaign.scenario, campaign.fixed)
+    try:
+        return effective_of(campaign.scenario, tuple(campaign.overrides(index)))
+    except UsageError as error:
+        raise UsageError(f"draw {index}: {error}") from None
 
 
-def run_draw(campaign: Campaign, index: int, build: str, bus: str) -> Record | None:
+@functools.lru_cache(maxsize=1)
+def effective_of(name: str, entries: tuple[str, ...]) -> dict:
+    with tempfile.TemporaryDirectory(prefix="reed-draw-") as scratch:
+        return scenario.write_effective(name, None, list(entries), Path(scratch, "effective.toml"))
+
+
+def run_draw(campaign: Campaign, index: int, build: str) -> Record | None:
     """None: interrupted before the end."""
     from reed_tools.figures import checks, summary
-    from reed_tools.record import telemetry_log
+    from reed_tools.record import signals, telemetry_log
 
     record = Record(index, campaign.definition(), build, campaign.overrides(index), "finished")
     with tempfile.TemporaryDirectory(prefix="reed-draw-") as scratch:
-        folder = Path(scratch)
-        try:
-            effective = scenario.write_effective(campaign.scenario, None, record.overrides, folder / "effective.toml")
-        except UsageError as error:
-            raise UsageError(f"draw {index}: {error}") from None
-        most_cycles = int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
-        plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"), bus,
-                        "lockstep", scratch, most_cycles, lcm=False, candump=False)
-        outcome = hil.run_pair(plan, lambda mode, t_s: None)
+        effective = known_to_figures(campaign, index)
+        plan = plans.make(effective, campaign.scenario, hil.MEMORY, "lockstep", Path(scratch), lcm=False, candump=False,
+                          entries=record.overrides)
+        outcome = hil.run(plan, lambda mode, t_s: None)
         if outcome.interrupted:
             return None
-        if REFUSED in (outcome.firmware_status, outcome.plant_status):
-            raise UsageError(f"draw {index}: {hil.last_words(plan, 'firmware' if outcome.firmware_status == REFUSED else 'plant')}")
-        if outcome.plant_status or outcome.stopped_because or outcome.firmware_status not in (0, STOPPED):
-            record.status = "died"
-            record.message = outcome.stopped_because or f"firmware ended with {outcome.firmware_status}, plant with {outcome.plant_status}"
-            record.message += "".join(f"; {name}: {hil.last_words(plan, name)}" for name in ("firmware", "plant"))
+        (status,) = outcome.statuses.values()
+        said = hil.last_words(plan, plan.controller)
+        if status == REFUSED:
+            raise UsageError(f"draw {index}: {said}")
+        if outcome.stopped_because or status not in (0, STOPPED):
+            record.status, record.message = "died", f"{outcome.stopped_because or f'the program ended with {status}'}; {said}"
             return record
-        if outcome.firmware_status == STOPPED:
-            record.status, record.message = "fault", hil.last_words(plan, "firmware")
+        if status == STOPPED:
+            record.status, record.message = "fault", said
         recording = telemetry_log.load(plan.log("firmware"), plan.log("plant"))
-        figures, signals = summary.build(folder, recording)
-        record.checks, record.digest = figures["checks"], figures["digest"]
-        record.stability = checks.evaluate(campaign.stable, summary.run_data(effective, recording, signals))
+        data = summary.run_data(effective, recording, signals.join(recording))
+        record.checks, record.digest = checks.evaluate(effective["checks"], data), recording.digest("lockstep")
+        record.stability = checks.evaluate(campaign.stable, data)
     return record
 
 
@@ -63,14 +70,14 @@ class Workers:
     """`with Workers(…) as workers: for record in workers.records(): …`. Leaving early, or a signal, stops the running pairs in
     order; what they had not finished is lost, nothing else."""
 
-    def __init__(self, campaign: Campaign, indices: list[int], jobs: int, build: str, buses: list[str]):
+    def __init__(self, campaign: Campaign, indices: list[int], jobs: int, build: str):
         context = multiprocessing.get_context("fork")
         self.results = context.Queue()
         self.stopping = context.Event()
         self.taken = context.Value("q", 0)
         self.interrupted = False
-        self.processes = [context.Process(target=self.work, args=(campaign, indices, build, bus), daemon=True)
-                          for bus in buses[:max(1, min(jobs, len(indices)))]]
+        self.processes = [context.Process(target=self.work, args=(campaign, indices, build), daemon=True)
+                          for _ in range(max(1, min(jobs, len(indices))))]
 
     def __enter__(self):
         for process in self.processes:
@@ -117,14 +124,14 @@ class Workers:
             self.taken.value += 1
             return self.taken.value - 1
 
-    def work(self, campaign: Campaign, indices: list[int], build: str, bus: str) -> None:
+    def work(self, campaign: Campaign, indices: list[int], build: str) -> None:
         """In the worker's own process."""
         hil.die_with_parent()
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: self.stopping.set())
         try:
             while not self.stopping.is_set() and (position := self.next_position()) < len(indices):
-                record = run_draw(campaign, indices[position], build, bus)
+                record = run_draw(campaign, indices[position], build)
                 if record is None:
                     break
                 self.results.put(record)

@@ -6,7 +6,6 @@ import json
 import shutil
 import subprocess
 import time
-from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -15,13 +14,12 @@ import numpy as np
 from reed_tools import versions
 from reed_tools.errors import RunError
 from reed_tools.paper.catalogue import Experiment
-from reed_tools.paths import PYTHON, program
+from reed_tools.paths import PYTHON
 from reed_tools.record import configuration, telemetry_log
 from reed_tools.record.signals import Signals, join
-from reed_tools.run import bus_choice, hil, scenario
-from reed_tools.run.command import STOPPED, last_line, most_cycles, what_failed
+from reed_tools.run import hil, plans, scenario
+from reed_tools.run.command import STOPPED, last_line, what_failed
 
-PORTS = range(43600, 43664)
 POLL_S = 0.05
 
 
@@ -39,14 +37,13 @@ class Job:
     folder: Path
     plan: hil.Plan
     process: subprocess.Popen
-    bus: ExitStack
     started: float
 
 
 def prepare(experiments: list[Experiment], cache: Path) -> dict[str, Path]:
     """Folder of each experiment, named by what decides its outcome and what is kept of it; every configuration is checked before the first run."""
     cache.mkdir(parents=True, exist_ok=True)
-    kept, folders = (versions.build() + " ".join(Signals.__dataclass_fields__)).encode(), {}
+    kept, folders = (versions.build(plans.names(hil.MEMORY).values()) + " ".join(Signals.__dataclass_fields__)).encode(), {}
     for experiment in experiments:
         draft = cache / "draft.toml"
         scenario.write_effective(experiment.scenario, None, experiment.entries(), draft)
@@ -80,38 +77,26 @@ def run_all(experiments: list[Experiment], cache: Path, jobs: int, report) -> li
                     report("at", job.experiment, seconds_into(job))
                     continue
                 active.remove(job)
-                job.bus.close()
                 keep(job)
                 report("done", job.experiment, time.monotonic() - job.started)
     finally:
         for job in active:
             hil.stop(job.process)
-            job.bus.close()
     return [load(experiment, folders[experiment.key]) for experiment in experiments]
-
-
-def free_bus(stack: ExitStack) -> str:
-    bus_choice.require_multicast_route()
-    if bus := bus_choice.free_udp(stack, PORTS):
-        return bus
-    raise RunError(f"all of the ports {PORTS[0]} to {PORTS[-1]} are in use by other runs")
 
 
 def start(experiment: Experiment, folder: Path) -> Job:
     for stale in folder.iterdir():  # of a run that did not end well
         if stale.name != "effective.toml":
             stale.unlink() if stale.is_file() else shutil.rmtree(stale)
-    held = ExitStack()
-    bus = free_bus(held)
     config = folder / "effective.toml"
-    plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(config), bus, "lockstep", str(folder),
-                    most_cycles(configuration.load(config)))
+    plan = plans.make(configuration.load(config), config, hil.MEMORY, "lockstep", folder, lcm=False, candump=False)
     (folder / "plan.json").write_text(json.dumps(asdict(plan)))
     with open(folder / "progress.txt", "wb") as output:
         process = subprocess.Popen([*PYTHON, str(hil.PROGRAM), str(folder / "plan.json")],
                                    stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                                    start_new_session=True, preexec_fn=hil.die_with_parent)
-    return Job(experiment, folder, plan, process, held, time.monotonic())
+    return Job(experiment, folder, plan, process, time.monotonic())
 
 
 def seconds_into(job: Job) -> float:
@@ -132,11 +117,11 @@ def keep(job: Job) -> None:
     logs = [job.plan.log("firmware"), job.plan.log("plant")]
     signals = join(telemetry_log.load(*logs))
     if signals is None:
-        raise RunError(f"{job.experiment.key}: the arm never became active: {last_line(job.plan, 'firmware')}")
-    stopped = last_line(job.plan, "firmware") if outcome.firmware_status == STOPPED else ""
+        raise RunError(f"{job.experiment.key}: the arm never became active: {last_line(job.plan, job.plan.controller)}")
+    stopped = last_line(job.plan, job.plan.controller) if STOPPED in outcome.statuses.values() else ""
     np.savez(job.folder / "part.npz", stopped=stopped, **vars(signals))
     (job.folder / "part.npz").replace(job.folder / "signals.npz")
-    for raw in (*logs, job.folder / "bus.candump"):
+    for raw in logs:
         raw.unlink(missing_ok=True)
 
 

@@ -45,15 +45,24 @@ def record_type(type_name: str, sample) -> np.dtype:
     return np.dtype(record)
 
 
-def decode_all(message_class, type_name: str, payloads: list[bytes]) -> dict[str, np.ndarray]:
-    """One array per field, one row per message, in native byte order."""
-    if not payloads:
-        return {name: np.array([]) for name in message_class.__slots__}
-    if payloads[0][:8] != message_class._get_packed_fingerprint():
-        raise RunError(f"{type_name}: the log was written with another version of this message than lcmtypes/{type_name}.lcm")
-    layout = record_type(type_name, message_class.decode(payloads[0]))
-    odd = next((data for data in payloads if len(data) != layout.itemsize or data[:8] != payloads[0][:8]), None)
+def joined(type_name: str, blocks: list[np.ndarray]) -> np.ndarray:
+    """All messages of one channel, [messages, bytes]."""
+    odd = next((block for block in blocks if block.shape[1] != blocks[0].shape[1]), None)
     if odd is not None:
-        raise RunError(f"{type_name}: a message of {len(odd)} bytes among messages of {layout.itemsize}; the log is not of one run")
-    records = np.frombuffer(b"".join(payloads), dtype=layout)
-    return {name: np.ascontiguousarray(records[name]).astype(layout[name].base.newbyteorder("=")) for name in message_class.__slots__}
+        raise RunError(f"{type_name}: a message of {odd.shape[1]} bytes among messages of {blocks[0].shape[1]}; the log is not of one run")
+    return np.concatenate(blocks) if blocks else np.empty((0, 0), np.uint8)
+
+
+def decode_all(message_class, type_name: str, messages: np.ndarray) -> dict[str, np.ndarray]:
+    """One array per field, one row per message, in native byte order. `messages`: as joined() gives them."""
+    if not len(messages):
+        return {name: np.array([]) for name in message_class.__slots__}
+    first = messages[0].tobytes()
+    fingerprint = message_class._get_packed_fingerprint()
+    if first[:8] != fingerprint:
+        raise RunError(f"{type_name}: the log was written with another version of this message than lcmtypes/{type_name}.lcm")
+    layout = record_type(type_name, message_class.decode(first))
+    if messages.shape[1] != layout.itemsize or not np.all(messages[:, :8] == np.frombuffer(fingerprint, np.uint8)):
+        raise RunError(f"{type_name}: messages of {messages.shape[1]} bytes, not all of {layout.itemsize}; the log is not of one run")
+    records = messages.reshape(-1).view(layout)
+    return {name: records[name].astype(layout[name].base.newbyteorder("=")) for name in message_class.__slots__}

@@ -16,7 +16,7 @@ ORIGIN = "run.json"                          # command, versions, machine
 PARTS = ("firmware.lcmlog", "plant.lcmlog")  # until they are merged
 SUMS = "SHA256SUMS"                          # in the form that `sha256sum -c` reads
 RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump")
-FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt")
+FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt", "one_process.txt")
 
 
 def logs(folder: Path) -> list[Path]:

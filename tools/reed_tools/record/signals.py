@@ -66,10 +66,14 @@ def join(recording: Recording) -> Signals | None:
     if not len(cycles):
         return None
 
-    def pick(table, name):
+    def rows(table):
         order = np.argsort(table["cycle"], kind="stable")
-        rows = order[np.searchsorted(table["cycle"], cycles, sorter=order)]
-        return table[name][rows]
+        return order[np.searchsorted(table["cycle"], cycles, sorter=order)]
+
+    rows_of = {id(table): rows(table) for table in (measured, control, adaptation, plant)}
+
+    def pick(table, name):
+        return table[name][rows_of[id(table)]]
 
     position = pick(measured, "position")
     joint_error = pick(control, "theta_plan") - position

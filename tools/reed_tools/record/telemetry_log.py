@@ -10,8 +10,8 @@ import numpy as np
 
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import use_message_types
-from reed_tools.record import event_file
-from reed_tools.record.message_layout import decode_all
+from reed_tools.record import event_file, event_log
+from reed_tools.record.message_layout import decode_all, joined
 
 # Fixed order: it is part of the digest's definition.
 DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")
@@ -19,6 +19,7 @@ TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAP
           "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t",
            "REED_HISTOGRAM": "histogram_t"}
+LEAST_BYTES = 16     # of a message of ours: fingerprint and utime
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
 
@@ -56,8 +57,19 @@ class Recording:
 def events(path: Path):
     """(utime, channel, bytes) of every message in the log, in its order."""
     for event in event_file.read(path):
-        if event.channel.startswith("REED_") and len(event.data) >= 16:
+        if event.channel.startswith("REED_") and len(event.data) >= LEAST_BYTES:
             yield HEAD.unpack_from(event.data)[0] if len(event.data) >= HEAD.size else 0, event.channel, event.data
+
+
+def payloads(path: Path) -> event_log.Blocks:
+    """By channel, all that can be read: damaged stretches are left out, as event_file.py reads them."""
+    try:
+        blocks = event_log.read(path)
+    except ValueError:
+        blocks = {}
+        for _, channel, data in events(path):
+            blocks.setdefault(channel, []).append(np.frombuffer(data, np.uint8)[np.newaxis])
+    return {channel: [block for block in found if block.shape[1] >= LEAST_BYTES] for channel, found in blocks.items()}
 
 
 def require_whole(path: Path) -> None:
@@ -75,20 +87,22 @@ def load(*paths: Path) -> Recording:
     use_message_types()
     import reed
 
-    payloads = {channel: [] for channel in TABLES}
     recording = Recording(singles={channel: [] for channel in SINGLES})
-    for _, channel, data in itertools.chain.from_iterable(map(events, paths)):
-        if channel in payloads:
-            payloads[channel].append(data)
+    messages = {channel: [] for channel in TABLES}
+    for channel, blocks in itertools.chain.from_iterable(payloads(path).items() for path in paths):
+        if channel in messages:
+            messages[channel] += blocks
         elif channel in SINGLES:
-            recording.singles[channel].append(decoded(getattr(reed, SINGLES[channel]).decode, channel, data))
+            decode = getattr(reed, SINGLES[channel]).decode
+            recording.singles[channel] += [decoded(decode, channel, row.tobytes()) for block in blocks for row in block]
+    whole = {channel: joined(name, messages[channel]) for channel, name in TABLES.items()}
     for channel, name in TABLES.items():
-        recording.tables[channel] = decoded(decode_all, channel, getattr(reed, name), name, payloads[channel])
-    last = max(recording.tables["REED_MEASURED"]["cycle"], default=-1)
+        recording.tables[channel] = decoded(decode_all, channel, getattr(reed, name), name, whole[channel])
+    last = int(recording.tables["REED_MEASURED"]["cycle"].max()) if recording.has("REED_MEASURED") else -1
     for channel in DIGEST_CHANNELS:
         # The plant may answer a SYNC after the controller's last recorded cycle.
-        kept = [data for data in payloads[channel] if HEAD.unpack_from(data)[1] <= last]
-        recording.channel_digests[channel] = hashlib.sha256(b"".join(kept)).hexdigest()
+        kept = whole[channel][recording.tables[channel]["cycle"] <= last]
+        recording.channel_digests[channel] = hashlib.sha256(kept).hexdigest()
     return recording
 
 

@@ -6,24 +6,25 @@ import os
 import re
 import socket
 import subprocess
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 from reed_tools.errors import UsageError
+from reed_tools.run import hil
 
 DEFAULT_GROUP, DEFAULT_PORT = "239.74.163.2", 43113
 VCAN = "vcan0"
-ALLOWED = "auto, socketcan:IFACE, udp, udp:GROUP:PORT or vm"
+ALLOWED = "auto, socketcan:IFACE, udp, udp:GROUP:PORT, vm or memory"
 INTERFACE_NAME = re.compile(r"[A-Za-z0-9_.-]{1,15}")
 IFF_UP, IFF_MULTICAST = 0x1, 0x1000
 ROUTE_FIX = ("ip link set lo up multicast on", "ip route add 224.0.0.0/4 dev lo")
 
 
 def choose(wanted: str) -> str:
-    """The `--bus` value for the two programs, or "vm"."""
+    """The `--bus` value for the two programs, "vm", or "memory"."""
     if wanted == "auto":
         return f"socketcan:{VCAN}" if vcan_ready(VCAN) else udp("udp")
-    if wanted == "vm":
+    if wanted in ("vm", hil.MEMORY):
         return wanted
     if wanted.startswith("socketcan:"):
         return socketcan(wanted)
@@ -57,18 +58,6 @@ def udp(wanted: str) -> str:
                          "PORT is 1 to 65535") from None
     require_multicast_route()
     return f"udp:{group}:{port}"
-
-
-def free_udp(stack: ExitStack, ports: range) -> str | None:
-    """A software bus that no other run on this machine uses, held until the stack closes; None: all are in use."""
-    for port in ports:
-        bus = f"udp:{DEFAULT_GROUP}:{port}"
-        try:
-            stack.enter_context(held(bus))
-            return bus
-        except UsageError:
-            continue
-    return None
 
 
 def kernel_has_can() -> bool:
@@ -138,7 +127,11 @@ def require_multicast_route() -> None:
 @contextmanager
 def held(bus: str):
     """Two runs on one bus would drive each other's arm: the second one is refused before it starts. The name is an abstract
-    socket: it belongs to the network, as the bus does, whoever runs and whatever files there are, and ends with its process."""
+    socket: it belongs to the network, as the bus does, whoever runs and whatever files there are, and ends with its process. Memory is
+    each run's own."""
+    if bus == hil.MEMORY:
+        yield
+        return
     name = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     try:
         name.bind(f"\0reed-bus-{bus}")

@@ -10,16 +10,15 @@ from reed_tools import folders
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
 from reed_tools.law import choice as law_choice
-from reed_tools.paths import CURRENT_RUN, program
+from reed_tools.paths import CURRENT_RUN
 from reed_tools.record import run_folder, trace_events
 from reed_tools.record.telemetry_log import load
 from reed_tools.record.whole_file import draft_of
-from reed_tools.run import bus_choice, hil, live_page, origin, progress, scenario, vm
+from reed_tools.run import bus_choice, hil, live_page, origin, plans, progress, scenario, vm
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = (*run_folder.FILES, "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
-START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
 
 def add_arguments(parser) -> None:
@@ -33,9 +32,9 @@ def add_arguments(parser) -> None:
                         help="run folder, without a run in it yet; default out/<time>-<scenario>")
     parser.add_argument("--bus", default="auto", metavar="BUS",
                         help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
-                             "vm (real SocketCAN inside a small VM)")
-    parser.add_argument("--clock", default="wall", choices=("wall", "lockstep"),
-                        help="wall: paced by the clock; lockstep: as fast as possible, bit-reproducible")
+                             "vm (real SocketCAN inside a small VM), memory (one process, in lockstep)")
+    parser.add_argument("--clock", choices=("wall", "lockstep"),
+                        help="wall (default, but for --bus memory): paced by the clock; lockstep: as fast as possible, bit-reproducible")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
                         help="override any number of the scenario or arm; repeatable")
     parser.add_argument("--law", metavar="LIB.so|FILE.py",
@@ -46,8 +45,9 @@ def add_arguments(parser) -> None:
 
 
 def run(arguments) -> int:
-    law = law_choice.choose(arguments.law, arguments.clock)
     bus = bus_choice.choose(arguments.bus)
+    arguments.clock = clock = clock_on(bus, arguments.clock)  # the line that repeats the run names it
+    law = law_choice.choose(arguments.law, clock)
     with bus_choice.held(bus):
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
             checked = Path(scratch, "effective.toml")
@@ -59,12 +59,11 @@ def run(arguments) -> int:
         say_where(folder)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
-                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
-        plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
-                        bus, arguments.clock, str(folder), most_cycles(effective), law=law.spec, environment=law.environment)
+                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {clock} clock"), flush=True)
+        plan = plans.make(effective, folder / "effective.toml", bus, clock, folder, law=law.spec, environment=law.environment)
         with live_page.beside() if arguments.live else contextlib.nullcontext():
             with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
-                outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)
+                outcome = vm.run(plan, on_progress) if bus == "vm" else hil.run(plan, on_progress)
             return conclude(folder, plan, outcome, arguments.trace)
 
 
@@ -74,8 +73,11 @@ def say_where(folder: Path) -> None:
         CURRENT_RUN.write_bytes(os.fsencode(folder) + b"\n")
 
 
-def most_cycles(effective: dict) -> int:
-    return int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
+def clock_on(bus: str, asked: str | None) -> str:
+    if bus == hil.MEMORY and asked == "wall":
+        raise UsageError("--bus memory --clock wall: controller and plant of one process take turns, no clock paces them; "
+                         "allowed: --clock lockstep, or another bus")
+    return asked or ("lockstep" if bus == hil.MEMORY else "wall")
 
 
 def clear(folder: Path) -> None:
@@ -94,7 +96,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     if trace and not unmerged:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
     complaint = law_choice.in_words(what_failed(plan, outcome))
-    if complaint and USAGE in (outcome.firmware_status, outcome.plant_status):
+    if complaint and USAGE in outcome.statuses.values():
         if not load(*run_folder.logs(folder)).has("REED_MEASURED"):  # nothing ran: no trace of it
             clear(folder)
             if not any(folder.iterdir()):
@@ -103,7 +105,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     summary, unwritten = evaluate(folder)
     if summary["cycles"]:
         result_table.show(summary)
-    for line in hil.complaints(plan, "plant") + hil.complaints(plan, "firmware"):
+    for line in (line for name in plan.programs for line in hil.complaints(plan, name)):
         if not (complaint and line in complaint):
             print(plain(law_choice.in_words(line)))  # what the machine refused, with the fix; why the arm stopped
     if outcome.interrupted:
@@ -124,12 +126,13 @@ def link_frames(folder: Path) -> None:
 
 def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
     """One line about the program that ended by itself with a complaint; the firmware's loss of its plant comes second."""
+    names, controller = plans.names(plan.bus), plan.controller
     if outcome.stopped_because:
-        return f"stopped, because {outcome.stopped_because}; reed_firmware: {last_line(plan, 'firmware')}"
-    for name, status in (("plant", outcome.plant_status), ("firmware", outcome.firmware_status)):
-        if status and not (name == "firmware" and status == STOPPED):
+        return f"stopped, because {outcome.stopped_because}; {names[controller]}: {last_line(plan, controller)}"
+    for name, status in outcome.statuses.items():
+        if status and not (name == controller and status == STOPPED):
             how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
-            return f"{'reed_plant_sim' if name == 'plant' else 'reed_firmware'} {how}: {last_line(plan, name)}"
+            return f"{names[name]} {how}: {last_line(plan, name)}"
     return None
 
 

@@ -1,14 +1,16 @@
-"""The two programs of one run: started plant first, stopped firmware first. Standard library only, because inside the
-small VM (tools/vm) they run without its packages (pair.py)."""
+"""The programs of one run: two, started plant first, stopped firmware first; on a bus in memory one that is both. Standard
+library only, because inside the small VM (tools/vm) they run without its packages (pair.py)."""
 
 import ctypes
 import json
 import os
 import resource
+import select
 import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -22,12 +24,12 @@ STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
 STALL_S = 30.0           # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
+MEMORY = "memory"        # the bus of controller and plant in one process
 
 
 @dataclass
 class Plan:
-    firmware: str
-    plant_sim: str
+    programs: dict[str, str]  # path by name: "plant" and "firmware", or "one_process" on a bus in memory
     config: str
     bus: str
     clock: str
@@ -37,8 +39,15 @@ class Plan:
     candump: bool = True  # keep every frame
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
+    entries: list[str] = field(default_factory=list)  # KEY=VALUE, over what the configuration says
+
+    @property
+    def controller(self) -> str:
+        """Name of the program that controls, the last to be started."""
+        return list(self.programs)[-1]
 
     def log(self, name: str) -> Path:
+        """`name`: "plant" or "firmware", whoever writes it."""
         return Path(self.out) / f"{name}.lcmlog"
 
     def output(self, name: str) -> Path:
@@ -47,8 +56,7 @@ class Plan:
 
 @dataclass
 class Outcome:
-    firmware_status: int | None = None
-    plant_status: int | None = None
+    statuses: dict[str, int] = field(default_factory=dict)  # by name, in the order in which they count
     interrupted: bool = False
     stopped_because: str = ""
 
@@ -58,12 +66,12 @@ def die_with_parent() -> None:
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)
 
 
-def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.Popen:
-    command = [program, "--config", plan.config, "--bus", plan.bus, "--clock", plan.clock,
-               "--log", str(plan.log(name)), *([] if plan.lcm else ["--no-lcm"]), *extra]
+def start(name: str, plan: Plan, options: list[str]) -> subprocess.Popen:
+    entries = [word for entry in plan.entries for word in ("--set", entry)]
+    command = [plan.programs[name], "--config", plan.config, *entries, *options, *([] if plan.lcm else ["--no-lcm"])]
     limit_stacks()
     with open(plan.output(name), "wb") as output:
-        # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
+        # A session of its own: Ctrl-C reaches the tool alone, which then stops the programs in order.
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
                                 env={**os.environ, **plan.environment})
 
@@ -73,6 +81,16 @@ def limit_stacks() -> None:
     soft, hard = resource.getrlimit(resource.RLIMIT_STACK)
     if soft == resource.RLIM_INFINITY or soft > STACK_BYTES:
         resource.setrlimit(resource.RLIMIT_STACK, (STACK_BYTES, hard))
+
+
+def on_bus(name: str, plan: Plan) -> list[str]:
+    return ["--bus", plan.bus, "--clock", plan.clock, "--log", str(plan.log(name))]
+
+
+def controls(plan: Plan) -> list[str]:
+    """Of the program that controls, behind what all have."""
+    frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
+    return ["--enable", *frames, *(["--law", plan.law] if plan.law else [])]
 
 
 def said(plan: Plan, name: str) -> list[str]:
@@ -115,46 +133,74 @@ def await_bus(plan: Plan, plant: subprocess.Popen, interrupted: list) -> None:
         time.sleep(0.005)
 
 
-def run_pair(plan: Plan, on_progress) -> Outcome:
-    """Runs both programs to the end of the scenario. on_progress(mode, t_s) is called a few times per second."""
-    with Guard() as guard:
-        return run_guarded(plan, on_progress, guard)
-
-
-def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
-    outcome = Outcome()
+@contextmanager
+def stop_requests():
+    """A list that is empty until a signal asks for the end of the run."""
     interrupted = []
     handlers = {number: signal.signal(number, lambda *_: interrupted.append(True)) for number in stop_signals()}
-    plant = start("plant", plan.plant_sim, plan, [])
+    try:
+        yield interrupted
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+def run(plan: Plan, on_progress) -> Outcome:
+    """Runs the scenario to its end. on_progress(mode, t_s) is called a few times per second."""
+    outcome = Outcome()
+    with Guard() as guard, stop_requests() as interrupted:
+        (run_one if plan.bus == MEMORY else run_pair)(plan, guard, interrupted, outcome, on_progress)
+        outcome.interrupted = bool(interrupted)
+    return outcome
+
+
+def run_one(plan: Plan, guard: Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
+    name = "one_process"
+    both = start(name, plan, ["--log", str(plan.log("firmware")), "--plant-log", str(plan.log("plant")), *controls(plan)])
+    guard.watch(both)
+    try:
+        watch(plan, both, both, interrupted, outcome, on_progress)
+    finally:
+        outcome.statuses = {name: stop(both)}
+        tell_end(plan, on_progress)
+
+
+def run_pair(plan: Plan, guard: Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
+    plant = start("plant", plan, on_bus("plant", plan))
     guard.watch(plant)
     await_bus(plan, plant, interrupted)
-    frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
-    law = ["--law", plan.law] if plan.law else []
-    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames, *law])
+    firmware = start("firmware", plan, [*on_bus("firmware", plan), *controls(plan)])
     guard.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:
-        outcome.firmware_status = stop(firmware)
-        tail = LogTail(plan.log("firmware"))
-        if (state := tail.control()) is not None:
-            tell_progress(tail, state, on_progress)  # where the run ended, not where it was when last looked at
+        firmware_status = stop(firmware)
+        tell_end(plan, on_progress)
         # The plant asked to stop is not a plant that died: only what it said before counts.
         died = plant.poll()
         status = stop(plant)
-        outcome.plant_status = died if died is not None else (0 if status == -signal.SIGINT else status)
-        outcome.interrupted = bool(interrupted)
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-    return outcome
+        plant_status = died if died is not None else (0 if status == -signal.SIGINT else status)
+        outcome.statuses = {"plant": plant_status, "firmware": firmware_status}  # its loss of the plant comes second
+
+
+def ended_within(process: subprocess.Popen, seconds: float) -> bool:
+    """Waits without asking again and again: a run in memory may be over in a tenth of a second."""
+    try:
+        descriptor = os.pidfd_open(process.pid)
+    except OSError:  # an older kernel
+        time.sleep(seconds)
+        return process.poll() is not None
+    try:
+        return bool(select.select([descriptor], [], [], seconds)[0]) and process.poll() is not None
+    finally:
+        os.close(descriptor)
 
 
 def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
     """Returns when the firmware has ended, was interrupted, or has to be stopped because nothing moves."""
     tail = LogTail(plan.log("firmware"))
     last_size, last_growth, last_report = -1, time.monotonic(), 0.0
-    while firmware.poll() is None and not interrupted:
-        time.sleep(POLL_S)
+    while not ended_within(firmware, POLL_S) and not interrupted:
         now = time.monotonic()
         size = tail.size()
         if size != last_size:
@@ -178,8 +224,15 @@ def tell_progress(tail: LogTail, state: tuple[int, int, float], on_progress) -> 
     on_progress(mode, t_s if mode == ACTIVE else tail.reached_s())
 
 
+def tell_end(plan: Plan, on_progress) -> None:
+    """Where the run ended, not where it was when last looked at."""
+    tail = LogTail(plan.log("firmware"))
+    if (state := tail.control()) is not None:
+        tell_progress(tail, state, on_progress)
+
+
 def main() -> int:
     plan = Plan(**json.loads(Path(sys.argv[1]).read_text()))
-    outcome = run_pair(plan, lambda mode, t_s: print(f"{PROGRESS_MARK}{mode} {t_s}", flush=True))
+    outcome = run(plan, lambda mode, t_s: print(f"{PROGRESS_MARK}{mode} {t_s}", flush=True))
     (Path(plan.out) / "outcome.json").write_text(json.dumps(asdict(outcome)))
     return 0

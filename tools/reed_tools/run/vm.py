@@ -23,8 +23,8 @@ def command(inner: list[str], time_limit_s: float | None = None, realtime: bool 
     return [str(VM), *limit, *(["--realtime"] if realtime else []), "--", *inner]
 
 
-def run_pair(plan: hil.Plan, on_progress) -> hil.Outcome:
-    """hil.run_pair inside the VM, with the run folder outside."""
+def run(plan: hil.Plan, on_progress) -> hil.Outcome:
+    """hil.run inside the VM, with the run folder outside."""
     inner = replace(plan, bus=BUS, lcm=False)  # the VM's network ends in the VM: nobody could listen
     outcome_file = Path(plan.out) / "outcome.json"
     outcome_file.unlink(missing_ok=True)

@@ -1,0 +1,36 @@
+// The controller on a bus that is open: cycle, recorder, loop, and what is said at the end. For the program
+// that is alone on its side of the bus and for the one that holds both sides.
+#pragma once
+
+#include <string>
+
+#include "reed/bus/transport/transport.h"
+#include "reed/config/description/scenario.h"
+#include "reed/firmware/loop/loop.h"
+#include "reed/rt/clock_kind.h"
+#include "reed/rt/usage.h"
+
+namespace reed {
+
+struct ControlOptions {
+  rt::ClockKind clock = rt::ClockKind::kWall;
+  std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
+  std::string log;      // LCM event log
+  std::string candump;  // CAN log
+  bool enable = false;  // the operator's wish to open the brakes
+  bool quiet = false;
+  bool lcm = true;
+  bool seccomp = false;  // any system call that a cycle does not need ends the program
+  /// What the loop's thread does for others inside the loop, counted by them; nullptr: nothing.
+  const rt::Usage* for_others = nullptr;
+};
+
+/// The scenario's [timing] as the loop takes it; throws ConfigError when its frames do not fit the wire.
+LoopOptions PlanLoop(const Scenario& scenario);
+
+/// Runs the scenario to its end and returns the exit status: 0, 1 when the arm stopped, 3 when the bus is
+/// lost. Throws, before anything moves, what bad input throws.
+int ControlArm(const ControlOptions& options, const Scenario& scenario, const LoopOptions& loop,
+               bus::Transport& transport);
+
+}  // namespace reed
