@@ -5,8 +5,11 @@
 //             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "options.h"
 #include "reed/bus/codec/wire_time.h"
@@ -19,6 +22,7 @@
 #include "reed/firmware/startup/checks.h"
 #include "reed/firmware/startup/loop_options.h"
 #include "reed/rt/heap_guard.h"
+#include "reed/rt/host_pause_watch.h"
 #include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
 #include "reed/rt/signals.h"
@@ -41,12 +45,14 @@ struct Flight {
 };
 
 /// The loop and nothing else, counted.
-void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::SnapshotRing& ring,
-               const std::atomic<bool>& stop, Flight& flight) noexcept {
+void FlyInside(const LoopOptions& loop, bool realtime, const rt::HostPauseWatch* watch, CycleBase& cycle,
+               telemetry::SnapshotRing& ring, const std::atomic<bool>& stop, Flight& flight) noexcept {
   const rt::Usage before = rt::ThreadUsage();
   const rt::HeapCount heap;
   // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
-  flight.result = wall ? RunWall(loop, cycle, ring, stop) : RunLockstep(cycle, ring, stop);
+  flight.result = !realtime          ? RunLockstep(cycle, ring, stop)
+                  : watch == nullptr ? RunRealtime(loop, cycle, ring, stop)
+                                     : RunOnPausingHost(loop, cycle, ring, stop, *watch);
   // ---- real time ends ----
   flight.heap_allocations = heap.calls();
   flight.usage = rt::ThreadUsage() - before;
@@ -55,26 +61,31 @@ void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::
 Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& loop,
            bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = rt::StopFlag();
-  const bool wall = options.clock == rt::ClockKind::kWall;
-  rt::RealtimeOptions wanted{wall ? scenario.timing.priority : 0,
-                             wall ? LoopCore(scenario.timing) : scenario.timing.cpu, true};
-  if (wall && !options.seccomp) bus::ReceiveOnThisThread(transport);  // before memory is locked
+  const bool realtime = options.clock == rt::ClockKind::kRealtime;
+  rt::RealtimeOptions wanted{realtime ? scenario.timing.priority : 0,
+                             realtime ? LoopCore(scenario.timing) : scenario.timing.cpu, true};
+  std::optional<rt::HostPauseWatch> pauses;  // a thread: before memory is locked
+  const std::string unwatched =
+      options.host_pause ? pauses.emplace().Start(wanted.cpu, wanted.priority + 1) : "";
+  const rt::HostPauseWatch* const watch = pauses ? &*pauses : nullptr;
+  if (realtime && !options.seccomp) bus::ReceiveOnThisThread(transport);  // before memory is locked
   rt::RealtimeScope scope(wanted);
-  for (const std::string& line : scope.report().Complaints())
-    std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
+  std::vector<std::string> refused = scope.report().Complaints();
+  if (!unwatched.empty()) refused.push_back(unwatched);
+  for (const std::string& line : refused) std::fprintf(stderr, "reed_firmware: %s\n", line.c_str());
 
   Flight flight;
   flight.report = scope.report();
   if (!options.seccomp) {
-    FlyInside(loop, wall, cycle, ring, stop, flight);
+    FlyInside(loop, realtime, watch, cycle, ring, stop, flight);
     return flight;
   }
   std::atomic<bool> guarded{true};
   std::thread thread([&] {  // inside the scope: it inherits priority and core
     rt::PrefaultStack();
-    if (wall) bus::ReceiveOnThisThread(transport);
+    if (realtime) bus::ReceiveOnThisThread(transport);
     guarded = rt::ArmSyscallGuard();
-    if (guarded) FlyInside(loop, wall, cycle, ring, stop, flight);
+    if (guarded) FlyInside(loop, realtime, watch, cycle, ring, stop, flight);
     rt::EndGuardedThread();
   });
   thread.join();
@@ -87,7 +98,7 @@ run_t Describe(const Options& options, const Scenario& scenario, const bus::Tran
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
   run.law = options.law.empty() ? scenario.control.law : options.law;
-  run.clock = options.clock == rt::ClockKind::kWall ? "wall" : "lockstep";
+  run.clock = options.clock == rt::ClockKind::kRealtime ? "wall" : "lockstep";
   run.dof = scenario.arm.dof();
   run.num_parameters = scenario.arm.num_parameters();
   run.rate_hz = scenario.timing.rate_hz;
@@ -126,13 +137,14 @@ int Run(const Options& options) {
   const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
+  if (options.host_pause) RefuseHostPauseOnRealDrives(*transport);
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(scenario, *transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);
   RefuseSecondController(*transport);
 
   telemetry::SnapshotRing ring(kRingCapacity);
-  const telemetry::TimeBase time = options.clock == rt::ClockKind::kWall
+  const telemetry::TimeBase time = options.clock == rt::ClockKind::kRealtime
                                        ? telemetry::TimeBase::Wall()
                                        : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
   const std::string can_interface = transport->kind() == "socketcan" ? transport->interface() : "udp";

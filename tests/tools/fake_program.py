@@ -21,6 +21,7 @@ def main() -> int:
         parser.add_argument(option)
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")
+    parser.add_argument("--host-pause", action="store_true")
     options = parser.parse_args()
     ctypes.CDLL(None).prctl(1, 0)  # as the kernel does for a program with file capabilities: no signal when its parent ends
     stopped = []
@@ -41,7 +42,7 @@ def main() -> int:
     if name == "firmware":
         (Path(options.log).parent / "plant_had_said").write_text((Path(options.log).parent / "plant.txt").read_text())
         hear_the_plant(Path(options.log).parent)
-    write_own_log(name, Path(options.log), options.clock)
+    write_own_log(name, Path(options.log), "lockstep" if options.clock == "lockstep" else "wall")
     if behaviour == "die":
         print("bus lost: vcan0 went away", file=sys.stderr)
         return 3

@@ -33,8 +33,8 @@ def add_arguments(parser) -> None:
     parser.add_argument("--bus", default="auto", metavar="BUS",
                         help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
                              "vm (real SocketCAN inside a small VM)")
-    parser.add_argument("--clock", default="wall", choices=("wall", "lockstep"),
-                        help="wall: paced by the clock; lockstep: as fast as possible, bit-reproducible")
+    parser.add_argument("--clock", default="realtime", choices=("realtime", "wall", "lockstep"),
+                        help="realtime (default; wall is its old name): paced by the clock; lockstep: as fast as possible, bit-reproducible")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
                         help="override any number of the scenario or arm; repeatable")
     parser.add_argument("--law", metavar="LIB.so|FILE.py",
@@ -47,6 +47,7 @@ def add_arguments(parser) -> None:
 def run(arguments) -> int:
     law = law_choice.choose(arguments.law, arguments.clock)
     bus = bus_choice.choose(arguments.bus)
+    clock = "lockstep" if arguments.clock == "lockstep" else "realtime"
     with bus_choice.held(bus):
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
             checked = Path(scratch, "effective.toml")
@@ -58,9 +59,10 @@ def run(arguments) -> int:
         say_where(folder)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
-                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock"), flush=True)
+                    f"{effective['timing']['rate_hz']:g} Hz, {bus}, {clock} clock"), flush=True)
         plan = hil.Plan(str(program("reed_firmware")), str(program("reed_plant_sim")), str(folder / "effective.toml"),
-                        bus, arguments.clock, str(folder), most_cycles(effective), law=law.spec, environment=law.environment)
+                        bus, clock, str(folder), most_cycles(effective), host_pause=clock == "realtime" and bus_choice.simulated(bus),
+                        law=law.spec, environment=law.environment)
         with live_page.beside() if arguments.live else contextlib.nullcontext():
             with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
                 outcome = vm.run_pair(plan, on_progress) if bus == "vm" else hil.run_pair(plan, on_progress)

@@ -20,7 +20,7 @@ POLL_S = 0.05
 STACK_BYTES = 8 << 20     # what Linux gives by itself
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
-STALL_S = 30.0           # no recorded cycle for this long: something hangs
+SILENCE_S = 30.0         # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
 
 
@@ -37,6 +37,7 @@ class Plan:
     candump: bool = True  # keep every frame
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
+    host_pause: bool = False  # a bench whose host may pause: the controller's watch measures it
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -129,8 +130,9 @@ def run_guarded(plan: Plan, on_progress, guard: Guard) -> Outcome:
     guard.watch(plant)
     await_bus(plan, plant, interrupted)
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
+    pauses = ["--host-pause"] if plan.host_pause else []
     law = ["--law", plan.law] if plan.law else []
-    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames, *law])
+    firmware = start("firmware", plan.firmware, plan, ["--enable", *frames, *law, *pauses])
     guard.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
@@ -159,8 +161,8 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
         size = tail.size()
         if size != last_size:
             last_size, last_growth = size, now
-        if now - last_growth > STALL_S:
-            outcome.stopped_because = f"the loop recorded nothing for {STALL_S:g} s"
+        if now - last_growth > SILENCE_S:
+            outcome.stopped_because = f"the loop recorded nothing for {SILENCE_S:g} s"
             return
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
