@@ -1,5 +1,5 @@
 // The plant program without its physics: the same endpoint, drives, sensors, frames and record, under them an
-// arm that stands where it started. What a bus cycle costs can be measured with it alone. Wall clock.
+// arm that stands where it started. What a bus cycle costs can be measured with it alone. Clock realtime.
 // reed_still_plant GROUP PORT CORE
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +41,7 @@ int Run(const std::string& bus, int core) {
   StillBody body;
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(bus);
   Publisher publisher({"", false, false, WhenFull::kDrop});
-  WallEndpoint endpoint(scenario, *transport, body, publisher);
+  RealtimeEndpoint endpoint(scenario, *transport, body, publisher);
   const rt::RealtimeScope realtime(RealtimeWish(scenario.timing));
   std::printf("waiting for SYNC\n");
   std::fflush(stdout);

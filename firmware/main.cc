@@ -21,6 +21,7 @@ int Run(const Options& options) {
   const LoopOptions loop = PlanLoop(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.control.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
+  if (options.control.host_pause) RefuseHostPauseOnRealDrives(*transport);
   RefuseSecondController(*transport);
   return ControlArm(options.control, scenario, loop, *transport);
 }

@@ -19,9 +19,9 @@
 #include "reed/plant/endpoint/realtime_endpoint.h"
 #include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/process/second_arm.h"
-#include "reed/plant/process/stall_watch.h"
 #include "reed/plant/program/conclusion.h"
 #include "reed/plant/record/publisher.h"
+#include "reed/rt/host_pause_watch.h"
 #include "reed/rt/monotonic.h"
 #include "reed/rt/program.h"
 #include "reed/rt/realtime_scope.h"
@@ -36,13 +36,13 @@ constexpr std::int64_t kStopCheck_ns = 60'000'000;
 
 std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
                                        bus::Transport& transport, ArmBody& body, Recorder& recorder,
-                                       const StallWatch& watch) {
+                                       const rt::HostPauseWatch& watch) {
   if (options.clock == rt::ClockKind::kLockstep) {
     return std::make_unique<LockstepEndpoint>(scenario, transport, body, recorder);
   }
-  WallClock clock = WallClock::System();
-  clock.stood_ns = [&watch] { return watch.stood_ns(); };
-  return std::make_unique<WallEndpoint>(scenario, transport, body, recorder, clock);
+  EndpointClock clock = EndpointClock::System();
+  clock.paused_ns = [&watch] { return watch.paused_ns(); };
+  return std::make_unique<RealtimeEndpoint>(scenario, transport, body, recorder, clock);
 }
 
 /// Until the endpoint ends by itself, its time is over, or a signal asks; then what already lies on the bus
@@ -61,28 +61,28 @@ void Serve(Endpoint& endpoint, double duration_s, const std::atomic<bool>& stop_
 int Run(const Options& options) {
   rt::UseSmallThreadStacks();
   const Scenario scenario = LoadScenario(options.config, options.load);
-  const bool wall = options.clock == rt::ClockKind::kWall;
+  const bool realtime = options.clock == rt::ClockKind::kRealtime;
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
   FlexibleArmBody body(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   RefuseSecondArm(*transport);
   Publisher publisher(
-      {options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
-  StallWatch watch;
+      {options.log, options.lcm, !options.quiet, realtime ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
+  rt::HostPauseWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
       MakeEndpoint(options, scenario, *transport, body, publisher, watch);
-  std::optional<rt::RealtimeScope> realtime;
-  if (wall) {
+  std::optional<rt::RealtimeScope> scope;
+  if (realtime) {
     const TimingConfig& timing = scenario.timing;
     std::vector<std::string> refused{watch.Start(PlantCore(timing), timing.priority + 1)};
-    realtime.emplace(RealtimeWish(timing));
-    for (const std::string& line : realtime->report().Complaints()) refused.push_back(line);
+    scope.emplace(RealtimeWish(timing));
+    for (const std::string& line : scope->report().Complaints()) refused.push_back(line);
     for (const std::string& line : refused) {
       if (!line.empty()) std::fprintf(stderr, "reed_plant_sim: %s\n", line.c_str());
     }
   }
 
-  Say(options.quiet, "arm " + scenario.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
+  Say(options.quiet, "arm " + scenario.arm.name + ", clock " + (realtime ? "realtime" : "lockstep") +
                          ": waiting for SYNC on " + transport->interface());
   Serve(*endpoint, options.duration_s, stop_wanted);
   return Conclude(*endpoint, publisher, options.quiet);

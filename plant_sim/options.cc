@@ -18,9 +18,10 @@ Options ParseOptions(int argc, char** argv) {
                  "arm: a name in config/arms or a TOML file; default: the scenario's");
   app.add_option("--set", options.load.set, "SECTION.KEY=VALUE, may be repeated")->allow_extra_args(false);
   app.add_option("--bus", options.bus, "socketcan:IFACE or udp[:GROUP:PORT]")->capture_default_str();
-  std::string clock = "wall";
-  app.add_option("--clock", clock, "wall: the arm moves on its own; lockstep: one period per SYNC")
-      ->check(CLI::IsMember({"wall", "lockstep"}))
+  std::string clock = "realtime";
+  app.add_option("--clock", clock,
+                 "realtime (old name: wall): the arm moves on its own; lockstep: one period per SYNC")
+      ->check(CLI::IsMember({"realtime", "wall", "lockstep"}))
       ->capture_default_str();
   app.add_option("--log", options.log, "LCM event log that gets every message");
   app.add_option("--duration", options.duration_s, "stop after so many seconds of plant time")
@@ -37,7 +38,7 @@ Options ParseOptions(int argc, char** argv) {
     std::fprintf(stderr, "reed_plant_sim: %s (reed_plant_sim --help lists the options)\n", error.what());
     std::exit(2);  // NOLINT(concurrency-mt-unsafe): one thread so far
   }
-  options.clock = clock == "wall" ? rt::ClockKind::kWall : rt::ClockKind::kLockstep;
+  options.clock = clock == "lockstep" ? rt::ClockKind::kLockstep : rt::ClockKind::kRealtime;
   return options;
 }
 

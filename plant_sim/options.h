@@ -12,7 +12,7 @@ struct Options {
   std::string config;
   LoadOptions load;
   std::string bus = "socketcan:vcan0";
-  rt::ClockKind clock = rt::ClockKind::kWall;
+  rt::ClockKind clock = rt::ClockKind::kRealtime;
   std::string log;
   double duration_s = 0.0;  // of plant time; 0: until a signal
   bool quiet = false;

@@ -5,8 +5,8 @@
 
 namespace reed::rt {
 
-/// kWall: paced by CLOCK_MONOTONIC. kLockstep: the controller's next cycle starts when this one is done, and the plant's time
+/// kRealtime: paced by CLOCK_MONOTONIC. kLockstep: the controller's next cycle starts when this one is done, and the plant's time
 /// is one period per SYNC.
-enum class ClockKind : std::uint8_t { kWall, kLockstep };
+enum class ClockKind : std::uint8_t { kRealtime, kLockstep };
 
 }  // namespace reed::rt

@@ -65,7 +65,6 @@ bool Unpack(const Frame& frame, JointStateMessage& out) noexcept {
   out.velocity_radps = reed_joint_state_1_velocity_decode(in.velocity);
   out.torque_Nm = reed_joint_state_1_torque_decode(in.torque);
   out.state = static_cast<DriveState>(in.drive_state);
-  out.clock_stood = in.clock_stood != 0;
   out.cycle_low4 = in.cycle_low4;
   return true;
 }
@@ -150,7 +149,6 @@ Frame Encoder::JointState(int joint, const JointStateMessage& message) noexcept 
   const auto j = static_cast<std::size_t>(joint);
   reed_joint_state_1_t out{};
   out.drive_state = static_cast<std::uint8_t>(message.state);
-  out.clock_stood = message.clock_stood ? 1 : 0;
   out.cycle_low4 = message.cycle_low4 & 0xFU;
   out.position =
       reed_joint_state_1_position_encode(Fit(message.position_rad, layout::kJointStatePosition, counters_));

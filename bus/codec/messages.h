@@ -35,7 +35,6 @@ struct JointStateMessage {
   double torque_Nm = 0.0;       // torque the drive applies
   DriveState state = DriveState::kOff;
   std::uint8_t cycle_low4 = 0;  // SYNC cycle modulo 16
-  bool clock_stood = false;     // of a simulated arm, for most of the time since its last answer
 };
 
 struct WrenchMessage {

@@ -1,5 +1,5 @@
 // The cores that [timing] leaves to the programs. Controller and plant work in turns, so by default they
-// share one: a frame wakes its reader without waking a core, a stall of that core meets both alike, and the
+// share one: a frame wakes its reader without waking a core, a pause of that core meets both alike, and the
 // other cores are left to telemetry. RT: set-up only.
 #pragma once
 

@@ -193,8 +193,7 @@ void Fields(V& v, TimingConfig& c) {
             "phase_action fault: more cycles in a row with a broken budget stop the arm");
   v.Integer("priority", c.priority, {"1", 1, 98}, "SCHED_FIFO priority of the loop");
   v.Integer("cpu", c.cpu, {"1", -1, 1023}, "core of the loop; -1: the last one it may use, in lockstep any");
-  v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023},
-            "core of the plant on the clock; -1: that of the loop");
+  v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023}, "core of the plant in realtime; -1: that of the loop");
 }
 
 template <typename V>

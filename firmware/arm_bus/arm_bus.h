@@ -22,8 +22,7 @@ static_assert(static_cast<int>(DriveState::kFault) == static_cast<int>(bus::Driv
 template <int N>
 class ArmBus {
  public:
-  explicit ArmBus(bus::Transport& transport)
-      : transport_(transport), simulated_(bus::OnlySimulated(transport)) {
+  explicit ArmBus(bus::Transport& transport) : transport_(transport) {
     measurement_.age.fill(Measurement<N>::kNever);
   }
 
@@ -32,7 +31,7 @@ class ArmBus {
     cycle_ = cycle;
     answered_ = 0;
     wrench_came_ = wrench_heard_ = false;
-    measurement_.foreign_controller = clock_stood_ = false;
+    measurement_.foreign_controller = false;
     measurement_.unexpected_joint = -1;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
@@ -74,17 +73,10 @@ class ArmBus {
   const bus::DecodeCounters& decode_counters() const noexcept { return decoder_.counters(); }
   const bus::TransportCounters& transport_counters() const noexcept { return transport_.counters(); }
   bool alive() const noexcept { return transport_.alive(); }
-  bool clock_stood() const noexcept { return clock_stood_; }
-  /// What was missed while the arm's own clock stood still did it no harm. Real drives never say so; a simulated arm
-  /// may with its next answer, and one that stays silent stops by its age.
-  bool ExcusesMisses() const noexcept {
-    const bool answered = !simulated_ || measurement_.YoungestAge() == 0;
-    return clock_stood_ || !answered;
-  }
   std::int64_t late_frames() const noexcept { return late_; }
 
  private:
-  static constexpr int kMostFrames = 96;  // of one cycle: several whole answers after a stall
+  static constexpr int kMostFrames = 96;  // of one cycle: several whole answers after a delay
   /// Only lockstep waits for longer, and only for joints: the wrench travels with them, and one that is not
   /// there by then was not sent.
   static constexpr std::int64_t kOneWait_ns = 100'000'000;
@@ -128,7 +120,6 @@ class ArmBus {
       return;
     }
     const bus::JointStateMessage& state = decoded.joint_state;
-    clock_stood_ = clock_stood_ || (simulated_ && state.clock_stood);
     const int late =
         static_cast<int>((cycle_ - state.cycle_low4) & 0xFu);  // cycles since the SYNC it answers
     if (late == 0) {
@@ -165,14 +156,12 @@ class ArmBus {
   }
 
   bus::Transport& transport_;
-  bool simulated_;  // a real drive's clock never stands still, whatever it says
   bus::Encoder encoder_;
   bus::Decoder decoder_;
   Measurement<N> measurement_;
   std::array<bus::Frame, 32> received_{};
   std::uint32_t cycle_ = 0;
   std::uint32_t answered_ = 0;   // bit per joint
-  bool clock_stood_ = false;     // says an answer of this cycle: the simulated arm's clock had stood still
   bool wrench_came_ = false;     // this cycle's
   bool wrench_heard_ = false;    // any, in this cycle
   bool wrench_expected_ = true;  // worth waiting for

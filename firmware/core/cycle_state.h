@@ -7,7 +7,6 @@ struct CycleState {
   bool stop_wanted = false;
   bool missed_in_row_exceeded = false;
   int missed_in_row = 0;
-  bool host_paused = false;  // the host of a simulated arm was away: misses are not the controller's
   bool phase_budget_exceeded = false;  // in too many cycles in a row
   int broken_in_row = 0;
   bool gap = false;           // more than a period has passed since the last cycle

@@ -27,7 +27,6 @@ class Cycle final : public CycleBase {
     const std::int64_t received = rt::NowNs();
 
     const Measurement<N>& measured = bus_.measurement();
-    state.host_paused = bus_.ExcusesMisses();
     const Command<N>& command = controller_.Step(measured, state);  // estimate, decide, control, protect
     const std::int64_t computed = rt::NowNs();
 
@@ -35,7 +34,6 @@ class Cycle final : public CycleBase {
     const std::int64_t sent = rt::NowNs();
 
     Record(measured, snapshot);  // record
-    snapshot.timing.clock_stood = bus_.clock_stood();
     snapshot.timing.rx_ns = rt::ShortNs(received - snapshot.time_ns);
     snapshot.timing.compute_ns = rt::ShortNs(computed - received);
     snapshot.timing.tx_ns = rt::ShortNs(sent - computed);

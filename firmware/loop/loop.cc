@@ -33,10 +33,16 @@ class RoomInRing {
 
 }  // namespace
 
-LoopResult RunWall(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
-                   const std::atomic<bool>& stop) noexcept {
+LoopResult RunRealtime(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+                       const std::atomic<bool>& stop) noexcept {
   rt::MonotonicClock clock;
-  return WallLoop(clock, options, cycle, ring).Run(stop);
+  return RealtimeLoop(clock, options, cycle, ring).Run(stop);
+}
+
+LoopResult RunOnPausingHost(const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring,
+                            const std::atomic<bool>& stop, const rt::HostPauseWatch& watch) noexcept {
+  rt::PausingClock clock(watch);
+  return RealtimeLoop(clock, options, cycle, ring).Run(stop);
 }
 
 LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,

@@ -1,16 +1,18 @@
-// The loop on the clock, over any clock: the program's is CLOCK_MONOTONIC, the tests' moves when it is told
-// to. RT: safe.
+// The realtime loop, over any clock: the program's is CLOCK_MONOTONIC, that of a bench also knows the host's
+// pauses (rt/host_clock.h), the tests' moves when it is told to. RT: safe.
 #pragma once
 
 #include "reed/firmware/loop/stepper.h"
 #include "reed/rt/clock.h"
+#include "reed/rt/host_clock.h"
 
 namespace reed {
 
 template <rt::Clock Clock>
-class WallLoop {
+class RealtimeLoop {
  public:
-  WallLoop(Clock& clock, const LoopOptions& options, CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept
+  RealtimeLoop(Clock& clock, const LoopOptions& options, CycleBase& cycle,
+               telemetry::SnapshotRing& ring) noexcept
       : clock_(clock),
         options_(options),
         period_ns_(rt::PeriodNs(options.rate_hz)),
@@ -18,29 +20,30 @@ class WallLoop {
         phases_(options.phases) {}
 
   LoopResult Run(const std::atomic<bool>& stop) noexcept {
-    const std::int64_t start_ns = clock_.NowNs();
-    Silence silence(start_ns);
-    last_start_ns_ = start_ns;
-    std::int64_t deadline_ns = start_ns + period_ns_;
+    const rt::Instant begin = rt::ReadInstant(clock_);
+    Silence silence(begin.own_ns);
+    last_start_ns_ = begin.now_ns;
+    point_ = {begin.now_ns + period_ns_, begin.own_ns + period_ns_};
     while (true) {
-      clock_.SleepUntil(deadline_ns);
-      const std::int64_t now_ns = clock_.NowNs();
+      clock_.SleepUntil(point_.now_ns);
+      const rt::Instant start = rt::ReadInstant(clock_);
       state_.stop_wanted = stop.load(std::memory_order_relaxed);
-      state_.gap = 2 * (now_ns - last_start_ns_) > 3 * period_ns_;
-      last_start_ns_ = now_ns;
+      state_.gap = 2 * (start.now_ns - last_start_ns_) > 3 * period_ns_;
+      last_start_ns_ = start.now_ns;
       // The receive phase ends on its own budget: what comes later is taken with the next cycle's frames.
-      const std::int64_t rx_deadline_ns = now_ns + options_.phases.budget_ns[0];
-      result_.status = stepper_.Step(now_ns, now_ns - deadline_ns, rx_deadline_ns, state_, result_);
+      const std::int64_t rx_deadline_ns = start.now_ns + options_.phases.budget_ns[0];
+      result_.status =
+          stepper_.Step(start.now_ns, start.now_ns - point_.now_ns, rx_deadline_ns, state_, result_);
       WatchPhases();
-      const std::int64_t end_ns = clock_.NowNs();
+      const rt::Instant end = rt::ReadInstant(clock_);
       if (result_.status == CycleStatus::kRunning &&
-          silence.TooLong(stepper_.snapshot().bus.frames_rx, end_ns))
+          silence.TooLong(stepper_.snapshot().bus.frames_rx, end.own_ns))
         result_.status = CycleStatus::kBusLost;
-      deadline_ns = NextDeadline(deadline_ns, now_ns, end_ns);
+      Schedule(start, end);
       stepper_.Close(result_);
       if (result_.status != CycleStatus::kRunning) break;
     }
-    result_.wall_s = static_cast<double>(clock_.NowNs() - start_ns) * 1e-9;
+    result_.wall_s = static_cast<double>(clock_.NowNs() - begin.now_ns) * 1e-9;
     return result_;
   }
 
@@ -59,24 +62,22 @@ class WallLoop {
     state_.broken_in_row = phases_.in_row();
   }
 
-  std::int64_t NextDeadline(std::int64_t deadline_ns, std::int64_t start_ns, std::int64_t end_ns) noexcept {
-    // A mark says that the arm's clock stood still between the last answer and this one: what the last cycle
-    // missed behind its answer and this one before it was nothing to the arm, and the row goes on without it.
-    const bool stood = stepper_.snapshot().timing.clock_stood;
-    const int row = stood ? row_before_ : state_.missed_in_row;
-    const rt::OverrunDecision next = rt::AfterCycle(options_.overrun, deadline_ns, period_ns_, start_ns,
-                                                    end_ns, row, options_.max_missed_in_row);
-    result_.missed += next.next.missed;
-    if (next.next.missed > 0) {
+  /// The next grid point, and what the missed ones mean for the next cycle.
+  void Schedule(const rt::Instant& start, const rt::Instant& end) noexcept {
+    const rt::OverrunDecision decision = rt::AfterCycle(
+        options_.overrun, period_ns_, {point_.now_ns, start.now_ns, end.now_ns},
+        {point_.own_ns, start.own_ns, end.own_ns}, state_.missed_in_row, options_.max_missed_in_row);
+    const rt::Tick& next = decision.next;
+    result_.missed += next.missed;
+    result_.missed_host_paused += decision.missed_host_paused;
+    if (next.missed > 0) {
       ++result_.overruns;
-      stepper_.NoteTime(protect::Reason::kStall, static_cast<double>(next.next.missed), phases_.history());
+      stepper_.NoteTime(protect::Reason::kCyclesMissed, static_cast<double>(next.missed), phases_.history());
     }
-    const bool ended = next.missed_in_row == 0;
-    row_before_ = ended ? 0 : row;
-    state_.missed_in_row = stood && !ended ? row : next.missed_in_row;
-    state_.missed_in_row_exceeded = next.action == rt::CycleAction::kStop && !stood;
-    state_.hold = state_.hold || next.action == rt::CycleAction::kHold;
-    return next.next.deadline_ns;
+    state_.missed_in_row = decision.missed_in_row;
+    state_.missed_in_row_exceeded = decision.action == rt::CycleAction::kStop;
+    state_.hold = state_.hold || decision.action == rt::CycleAction::kHold;
+    point_ = {next.deadline_ns, end.own_ns + (next.deadline_ns - end.now_ns)};
   }
 
   Clock& clock_;
@@ -85,8 +86,8 @@ class WallLoop {
   Stepper stepper_;
   rt::PhaseMonitor phases_;
   CycleState state_;
+  rt::Instant point_{};  // grid point of the cycle that runs or comes next
   std::int64_t last_start_ns_ = 0;
-  int row_before_ = 0;  // of missed points, without those of the last cycle
   LoopResult result_;
 };
 

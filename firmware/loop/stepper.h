@@ -54,6 +54,7 @@ class Stepper {
   void Close(const LoopResult& result) noexcept {
     telemetry::Snapshot& now = snapshot();
     now.timing.missed = result.missed;
+    now.timing.missed_host_paused = result.missed_host_paused;
     now.timing.overruns = result.overruns;
     now.timing.dropped = result.dropped;
     if (slot_ != nullptr) ring_.Publish();

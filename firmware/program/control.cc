@@ -24,7 +24,7 @@ run_t Describe(const ControlOptions& options, const Scenario& scenario, const bu
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
   run.law = options.law.empty() ? scenario.control.law : options.law;
-  run.clock = options.clock == rt::ClockKind::kWall ? "wall" : "lockstep";
+  run.clock = options.clock == rt::ClockKind::kRealtime ? "wall" : "lockstep";
   run.dof = scenario.arm.dof();
   run.num_parameters = scenario.arm.num_parameters();
   run.rate_hz = scenario.timing.rate_hz;
@@ -99,10 +99,10 @@ int ControlArm(const ControlOptions& options, const Scenario& scenario, const Lo
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(scenario, transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);
-  const bool wall = options.clock == rt::ClockKind::kWall;
-  telemetry::SnapshotRing ring(wall ? kRingCapacity : kLockstepRingCapacity);
+  const bool realtime = options.clock == rt::ClockKind::kRealtime;
+  telemetry::SnapshotRing ring(realtime ? kRingCapacity : kLockstepRingCapacity);
   const telemetry::TimeBase time =
-      wall ? telemetry::TimeBase::Wall() : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
+      realtime ? telemetry::TimeBase::Wall() : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
   telemetry::Recorder recorder({options.log, options.candump, InterfaceName(transport), options.lcm, ""},
                                time, ring, protect::Text);
   if (!recorder.publish_problem().empty())

@@ -13,14 +13,15 @@
 namespace reed {
 
 struct ControlOptions {
-  rt::ClockKind clock = rt::ClockKind::kWall;
+  rt::ClockKind clock = rt::ClockKind::kRealtime;
   std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
   std::string log;      // LCM event log
   std::string candump;  // CAN log
   bool enable = false;  // the operator's wish to open the brakes
   bool quiet = false;
   bool lcm = true;
-  bool seccomp = false;  // any system call that a cycle does not need ends the program
+  bool seccomp = false;     // any system call that a cycle does not need ends the program
+  bool host_pause = false;  // a bench's host may pause: what is missed meanwhile does not stop the arm
   /// What the loop's thread does for others inside the loop, counted by them; nullptr: nothing.
   const rt::Usage* for_others = nullptr;
 };

@@ -113,8 +113,8 @@ Bytes MessageEncoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   out.compute_ns = in.compute_ns;
   out.tx_ns = in.tx_ns;
   out.cycle_ns = in.cycle_ns;
-  out.clock_stood = static_cast<std::int8_t>(in.clock_stood);
   out.missed = in.missed;
+  out.missed_host_paused = in.missed_host_paused;
   out.overruns = in.overruns;
   out.dropped = in.dropped;
   out.rx_over = in.rx_over;

@@ -17,7 +17,7 @@ namespace reed::telemetry {
 
 inline constexpr int kMaxEvents = 4;  // of one cycle
 inline constexpr int kMaxFrames =
-    24;  // of one cycle: SYNC, 8 states, wrench, command, and a second set after a stall
+    24;  // of one cycle: SYNC, 8 states, wrench, command, and a second set after a delay
 
 using PerJoint = std::array<double, kMaxJoints>;
 using PerParameter = std::array<double, kMaxParameters>;
@@ -77,13 +77,13 @@ struct Timing {
   std::int32_t compute_ns = 0;
   std::int32_t tx_ns = 0;
   std::int32_t cycle_ns = 0;
-  std::int64_t missed = 0;  // since start, as all that follow
+  std::int64_t missed = 0;              // since start, as all that follow
+  std::int64_t missed_host_paused = 0;  // of `missed`
   std::int64_t overruns = 0;
   std::int64_t dropped = 0;
   std::int64_t rx_over = 0;
   std::int64_t compute_over = 0;
   std::int64_t tx_over = 0;
-  bool clock_stood = false;  // of this cycle
 };
 
 /// lcmtypes/bus_t.lcm, all since start

@@ -58,7 +58,13 @@ TimingConfig WithBudgets(const Scenario& scenario) {
 void RefuseLockstepOnRealDrives(const bus::Transport& transport) {
   if (!bus::OnlySimulated(transport))
     throw std::runtime_error("--clock lockstep: only a simulated arm waits for its controller; on " +
-                             transport.kind() + ":" + transport.interface() + " use --clock wall");
+                             transport.kind() + ":" + transport.interface() + " use --clock realtime");
+}
+
+void RefuseHostPauseOnRealDrives(const bus::Transport& transport) {
+  if (!bus::OnlySimulated(transport))
+    throw std::runtime_error("--host-pause: only a simulated arm waits for its host; run without it on " +
+                             transport.kind() + ":" + transport.interface());
 }
 
 void RefuseSecondController(bus::Transport& transport) {

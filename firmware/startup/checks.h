@@ -21,6 +21,10 @@ TimingConfig WithBudgets(const Scenario& scenario);
 /// Drives do not wait for a controller; throws std::runtime_error where some may be at the bus's other end.
 void RefuseLockstepOnRealDrives(const bus::Transport& transport);
 
+/// Nothing that real drives missed may be left out; throws std::runtime_error where some may be at the bus's
+/// other end.
+void RefuseHostPauseOnRealDrives(const bus::Transport& transport);
+
 /// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
 void RefuseSecondController(bus::Transport& transport);
 

@@ -57,12 +57,11 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
   return in;
 }
 
-void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept {
+void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement) noexcept {
   std::array<bus::Frame, kMaxJoints + 1> batch;
   std::size_t size = 0;
   for (int i = 0; i < measurement.dof; ++i) {
     bus::JointStateMessage joint = measurement.joints[static_cast<std::size_t>(i)];
-    joint.clock_stood = clock_stood;
     joint.cycle_low4 = static_cast<std::uint8_t>(cycle & 0xFU);
     batch[size++] = encoder_.JointState(i, joint);
   }

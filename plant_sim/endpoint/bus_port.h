@@ -30,9 +30,8 @@ class BusPort {
   /// left out and counted.
   std::span<const Incoming> Receive(std::int64_t deadline_ns) noexcept;
 
-  /// One state frame per joint, then the wrench unless it is lost, in one Send. `clock_stood`: the arm's time
-  /// did not pass since the last answer as the controller's did.
-  void Answer(std::uint32_t cycle, const Measurement& measurement, bool clock_stood) noexcept;
+  /// One state frame per joint, then the wrench unless it is lost, in one Send.
+  void Answer(std::uint32_t cycle, const Measurement& measurement) noexcept;
 
   /// Frames that the last Receive took off the bus, of use or not.
   int received() const noexcept { return received_; }

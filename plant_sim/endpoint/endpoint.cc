@@ -61,11 +61,11 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
   return true;
 }
 
-void Endpoint::Sample(std::uint32_t cycle, const Standstill& standstill) {
-  port_.Answer(cycle, robot_.Measure(), standstill.clock_stood);
+void Endpoint::Sample(std::uint32_t cycle, const HostPauses& host) {
+  port_.Answer(cycle, robot_.Measure());
   PlantRecord truth = robot_.Snapshot();
-  truth.stalls = standstill.stalls;
-  truth.stood_s = standstill.stood_s;
+  truth.host_pauses = host.count;
+  truth.host_pause_s = host.total_s;
   journal_.Put(truth);
   if (cycle % shape_every_cycles_ == 0) journal_.Put(robot_.ShapeSnapshot());
 }

@@ -1,5 +1,5 @@
 // The simulated arm as one participant of the bus; the two clocks differ in when physics happens
-// (lockstep_endpoint.h, wall_endpoint.h). RT: safe while no controller restarts and nothing fails.
+// (lockstep_endpoint.h, realtime_endpoint.h). RT: safe while no controller restarts and nothing fails.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,10 @@
 
 namespace reed::plant {
 
-/// How the machine kept the arm's clock from running.
-struct Standstill {
-  std::int64_t stalls = 0;  // since start, as stood_s
-  double stood_s = 0.0;
-  bool clock_stood = false;  // for most of the time since the last answer
+/// Since start, in which the arm's clock was held.
+struct HostPauses {
+  std::int64_t count = 0;
+  double total_s = 0.0;
 };
 
 class Endpoint {
@@ -41,7 +40,7 @@ class Endpoint {
   /// Common to both clocks: layout check, restart, stamp. False: this SYNC must not be answered.
   bool Accept(const Incoming& sync, std::int64_t utime);
   /// Sensors, answer, telemetry, all of this instant.
-  void Sample(std::uint32_t cycle, const Standstill& standstill = {});
+  void Sample(std::uint32_t cycle, const HostPauses& host = {});
   /// After every advance: a body that diverged ends the simulation.
   void CheckHealth();
   void CountRefusedCommand() noexcept { ++refused_commands_; }

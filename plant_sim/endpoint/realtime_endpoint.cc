@@ -7,19 +7,19 @@
 
 namespace reed::plant {
 
-WallClock WallClock::System() {
+EndpointClock EndpointClock::System() {
   using namespace std::chrono;  // NOLINT(google-build-using-namespace): local to two expressions
   return {[] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); },
           [] { return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count(); }};
 }
 
-WallEndpoint::WallEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body,
-                           Recorder& recorder, WallClock clock)
+RealtimeEndpoint::RealtimeEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body,
+                                   Recorder& recorder, EndpointClock clock)
     : Endpoint(scenario, transport, body, recorder),
       clock_(std::move(clock)),
       max_step_ns_(std::max<std::int64_t>(1, std::llround(scenario.plant.max_step_s * 1e9))) {}
 
-void WallEndpoint::Handle(std::span<const Incoming> incoming) {
+void RealtimeEndpoint::Handle(std::span<const Incoming> incoming) {
   const std::int64_t now_ns = clock_.monotonic_ns();
   const std::int64_t arm_ns = ArmTime(now_ns);
   if (incoming.empty() && heard_others() && arm_ns - integrated_ns_ < kIdle_ns) return;
@@ -34,44 +34,41 @@ void WallEndpoint::Handle(std::span<const Incoming> incoming) {
   }
 }
 
-void WallEndpoint::OnSync(const Incoming& sync, std::int64_t now_ns) {
+void RealtimeEndpoint::OnSync(const Incoming& sync, std::int64_t now_ns) {
   if (sync.new_controller) real_minus_monotonic_us_ = clock_.realtime_us() - now_ns / 1000;
   if (!Accept(sync, real_minus_monotonic_us_ + now_ns / 1000)) return;
   if (sync.new_controller) integrated_ns_ = ArmTime(clock_.monotonic_ns());
   cycle_ = sync.sync.cycle;
-  // Most of the time since the last answer: then the machine made the controller late, and not itself.
-  standstill_.clock_stood = 2 * (stood_ns_ - stood_at_answer_ns_) > now_ns - answered_ns_;
-  Sample(cycle_, standstill_);
+  Sample(cycle_, host_);
   answered_ns_ = now_ns;
-  stood_at_answer_ns_ = stood_ns_;
 }
 
-/// Read after `now_ns`: a stall between the two readings then holds the arm back, and never pushes it ahead.
-std::int64_t WallEndpoint::ArmTime(std::int64_t now_ns) {
-  const std::int64_t stood_ns = clock_.stood_ns();
-  const std::int64_t stall_ns = stood_ns - stood_ns_;
-  stood_ns_ = stood_ns;
-  const bool served = syncs() > 0 && now_ns - answered_ns_ - stall_ns < kControllerGone_ns;
-  if (stall_ns > 0 && served) {
-    const double stall_s = static_cast<double>(stall_ns) * 1e-9;
-    ++standstill_.stalls;
-    standstill_.stood_s += stall_s;
-    if (stall_ns >= kWorthALine_ns) {
-      journal().Note(PlantEvent::kClockStood, robot().drives().state(), stall_s,
-                     "the machine was away for %.1f ms at %.3f s; the arm's clock stood still", 1e3 * stall_s,
+/// Read after `now_ns`: a pause between the two readings then holds the arm back, and never pushes it ahead.
+std::int64_t RealtimeEndpoint::ArmTime(std::int64_t now_ns) {
+  const std::int64_t paused_ns = clock_.paused_ns();
+  const std::int64_t pause_ns = paused_ns - paused_ns_;
+  paused_ns_ = paused_ns;
+  const bool served = syncs() > 0 && now_ns - answered_ns_ - pause_ns < kControllerGone_ns;
+  if (pause_ns > 0 && served) {
+    const double pause_s = static_cast<double>(pause_ns) * 1e-9;
+    ++host_.count;
+    host_.total_s += pause_s;
+    if (pause_ns >= kWorthALine_ns) {
+      journal().Note(PlantEvent::kHostPause, robot().drives().state(), pause_s,
+                     "host pause of %.1f ms at %.3f s; the arm's clock was held", 1e3 * pause_s,
                      robot().time_s());
     }
   }
-  return now_ns - stood_ns;
+  return now_ns - paused_ns;
 }
 
 /// A command is an answer to a SYNC of the last few periods; an older one is a stray of another controller.
-void WallEndpoint::OnCommand(const bus::CommandMessage& command) {
+void RealtimeEndpoint::OnCommand(const bus::CommandMessage& command) {
   const bool recent = syncs() > 0 && cycle_ - command.cycle < timeout_periods_;  // modulo 2^32
   if (!recent || !mutable_robot().Command(command)) CountRefusedCommand();
 }
 
-void WallEndpoint::CatchUp(std::int64_t now_ns) {
+void RealtimeEndpoint::CatchUp(std::int64_t now_ns) {
   if (const std::int64_t behind_ns = now_ns - integrated_ns_; behind_ns > kMaxCatchUp_ns) {
     integrated_ns_ = now_ns - kMaxCatchUp_ns;
     const double lost_s = static_cast<double>(behind_ns - kMaxCatchUp_ns) * 1e-9;

@@ -1,8 +1,8 @@
-// Time by CLOCK_MONOTONIC. The arm moves on its own; SYNC only samples it and commands act when they arrive,
-// so that a late controller really hurts; a machine that runs neither program does not, the clock stands
-// still for it and the answer says so. The plant's clock starts with a controller's first SYNC. Physics is
-// caught up with when a frame arrives, twice per cycle: waking in between would answer SYNC 30 us sooner and
-// cost a core that both programs share two context switches.
+// Time by CLOCK_MONOTONIC. The arm moves on its own: SYNC only samples it, and commands act when they arrive. A
+// late controller meets an arm that has moved on. The arm's clock is held in a host pause, when the host runs
+// neither program. It starts with a controller's first SYNC. Physics is caught up with when a frame arrives,
+// twice per cycle: waking in between would answer SYNC 30 us sooner and cost a core that both programs share
+// two context switches.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,43 @@
 namespace reed::plant {
 
 /// Where time comes from; tests bring their own.
-struct WallClock {
+struct EndpointClock {
   std::function<std::int64_t()> monotonic_ns;
   std::function<std::int64_t()> realtime_us;
-  /// How much of monotonic_ns the machine was away.
-  std::function<std::int64_t()> stood_ns = [] { return std::int64_t{0}; };
-  static WallClock System();
+  /// Sum of the host pauses so far.
+  std::function<std::int64_t()> paused_ns = [] { return std::int64_t{0}; };
+  static EndpointClock System();
 };
 
-class WallEndpoint final : public Endpoint {
+class RealtimeEndpoint final : public Endpoint {
  public:
-  WallEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder,
-               WallClock clock = WallClock::System());
+  RealtimeEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+                   EndpointClock clock = EndpointClock::System());
 
  private:
-  /// A machine that is this far behind gives the time up (and says so) instead of chasing it for ever.
+  /// A simulation that is this far behind gives the time up (and says so) instead of chasing it for ever.
   static constexpr std::int64_t kMaxCatchUp_ns = 250'000'000;
   /// Frames of no use are no reason to integrate before so much has passed.
   static constexpr std::int64_t kIdle_ns = 50'000'000;
-  /// Without a SYNC for so long there is no run of which a stall could be left out.
+  /// Without a SYNC for so long there is no run in which a pause could matter.
   static constexpr std::int64_t kControllerGone_ns = 1'000'000'000;
-  /// A stall this long is worth a line; shorter ones are counted.
+  /// A pause this long is worth a line; shorter ones are counted.
   static constexpr std::int64_t kWorthALine_ns = 10'000'000;
 
   void Handle(std::span<const Incoming> incoming) override;
   void OnSync(const Incoming& sync, std::int64_t now_ns);
-  /// The arm's clock at `now_ns`: without the time in which the machine was away.
+  /// The arm's clock at `now_ns`: without the host pauses.
   std::int64_t ArmTime(std::int64_t now_ns);
   void OnCommand(const bus::CommandMessage& command);
   /// Physics up to the arm's `now_ns` in steps of at most plant.max_step_s.
   void CatchUp(std::int64_t now_ns);
 
-  WallClock clock_;
+  EndpointClock clock_;
   std::int64_t max_step_ns_;
-  std::int64_t integrated_ns_ = 0;                         // instant of the arm's state on its own clock
-  std::int64_t stood_ns_ = 0;                              // clock_.stood_ns() as known so far
-  std::int64_t answered_ns_ = 0, stood_at_answer_ns_ = 0;  // both clocks at the last answer
-  Standstill standstill_;
+  std::int64_t integrated_ns_ = 0;  // instant of the arm's state on its own clock
+  std::int64_t paused_ns_ = 0;      // clock_.paused_ns() as known so far
+  std::int64_t answered_ns_ = 0;    // the last SYNC
+  HostPauses host_;
   std::int64_t real_minus_monotonic_us_ = 0;  // one reading of the clock serves both times of a cycle
   std::uint32_t cycle_ = 0;
 };

@@ -27,8 +27,8 @@ void Fill(const PlantRecord& r, plant_t& m) {
   m.kinetic_J = r.kinetic_J;
   m.elastic_J = r.elastic_J;
   m.potential_J = r.potential_J;
-  m.stalls = r.stalls;
-  m.stood_s = r.stood_s;
+  m.stalls = r.host_pauses;
+  m.stood_s = r.host_pause_s;
 }
 
 void Fill(const EventRecord& r, event_t& m) {

@@ -16,7 +16,7 @@
 
 namespace reed::plant {
 
-enum class WhenFull { kWait, kDrop };  // lockstep loses nothing; the wall clock waits for nobody
+enum class WhenFull { kWait, kDrop };  // lockstep loses nothing; realtime waits for nobody
 
 struct PublisherConfig {
   std::string log_path;  // empty: no log

@@ -22,8 +22,8 @@ struct PlantRecord {
   std::array<double, 3> tip{}, tip_velocity{}, contact_force{};
   double normal_force = 0.0, gap = 0.0;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
-  std::int64_t stalls = 0;
-  double stood_s = 0.0;
+  std::int64_t host_pauses = 0;
+  double host_pause_s = 0.0;
 };
 
 /// Mirrors lcmtypes/shape_t.lcm. Its size keeps the message below one datagram.
@@ -49,7 +49,7 @@ enum class PlantEvent : std::int32_t {
   kTooSlow = 209,   // value: plant time given up, s
   kWrenchLost = 210,
   kWrenchBack = 211,
-  kClockStood = 212,  // value: for how long, s
+  kHostPause = 212,   // value: for how long, s
   kAnotherArm = 213,  // value: plant time, s
 };
 

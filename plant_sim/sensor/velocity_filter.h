@@ -17,7 +17,7 @@ class VelocityFilter {
   }
 
   /// The next reading, dt_s after the last one. The difference quotient is the exact mean speed of the
-  /// interval, and the low pass is solved exactly for it, so uneven sampling instants (wall clock) bias
+  /// interval, and the low pass is solved exactly for it, so uneven sampling instants (realtime) bias
   /// nothing.
   void Update(double angle_rad, double dt_s) noexcept {
     if (dt_s <= 0.0) return;

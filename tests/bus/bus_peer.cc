@@ -50,7 +50,7 @@ Frame Encode(Encoder& encoder, std::istream& in) {
   }
   if (kind == "joint") {
     JointStateMessage m;
-    in >> joint >> m.position_rad >> m.velocity_radps >> m.torque_Nm >> number >> m.clock_stood >> low4;
+    in >> joint >> m.position_rad >> m.velocity_radps >> m.torque_Nm >> number >> low4;
     m.state = static_cast<DriveState>(number);
     m.cycle_low4 = static_cast<std::uint8_t>(low4);
     return encoder.JointState(joint, m);
@@ -81,7 +81,7 @@ void PrintDecoded(Decoder& decoder, std::istream& in) {
   } else if (d.kind == MessageKind::kJointState) {
     const JointStateMessage& m = d.joint_state;
     std::cout << "joint " << d.joint << ' ' << m.position_rad << ' ' << m.velocity_radps << ' ' << m.torque_Nm
-              << ' ' << static_cast<int>(m.state) << ' ' << m.clock_stood << ' ' << int{m.cycle_low4};
+              << ' ' << static_cast<int>(m.state) << ' ' << int{m.cycle_low4};
   } else if (d.kind == MessageKind::kWrench) {
     std::cout << "wrench " << d.wrench.cycle << ' ' << d.wrench.saturated;
     for (const double force : d.wrench.force_N) std::cout << ' ' << force;

@@ -24,8 +24,7 @@ def messages(rng):
     yield "sync", [cycle, layout], "SYNC", {"cycle": cycle, "layout": layout}
     for joint in range(8):
         state = {"position": uniform(rng, "position"), "velocity": uniform(rng, "velocity"),
-                 "torque": uniform(rng, "torque"), "drive_state": rng.randrange(5), "clock_stood": rng.randrange(2),
-                 "cycle_low4": rng.randrange(16)}
+                 "torque": uniform(rng, "torque"), "drive_state": rng.randrange(5), "cycle_low4": rng.randrange(16)}
         yield "joint", [joint, *state.values()], f"JOINT_STATE_{joint + 1}", state
     axes = {f"{kind}_{axis}": uniform(rng, kind) for kind in ("force", "moment") for axis in "xyz"}
     saturated = rng.randrange(2)

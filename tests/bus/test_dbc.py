@@ -10,17 +10,23 @@ import pytest
 CONTRACT = {"SYNC": (0x080, 8), "WRENCH": (0x140, 32), "COMMAND": (0x200, 48),
             **{f"JOINT_STATE_{i}": (0x100 + i, 16) for i in range(1, 9)}}
 UNITS = {"position": "rad", "velocity": "rad/s", "torque": "Nm", "force": "N", "moment": "Nm"}
-CHOICES = {"drive_state": ["Off", "Ready", "Enabled", "Braked", "Fault"], "clock_stood": ["No", "Yes"], "request": ["Off", "Ready", "Enable"]}
+CHOICES = {"drive_state": ["Off", "Ready", "Enabled", "Braked", "Fault"], "request": ["Off", "Ready", "Enable"]}
 
 
 def generate(dbc, out):
-    script = pathlib.Path(__file__).resolve().parents[2] / "bus" / "generate_layout.py"
+    script = pathlib.Path(__file__).resolve().parents[2] / "bus" / "codec" / "generate_layout.py"
     return subprocess.run([sys.executable, script, dbc, out], capture_output=True, text=True)
 
 
 def test_frames_are_those_of_the_contract(database):
     assert {m.name: (m.frame_id, m.length) for m in database.messages} == CONTRACT
     assert all(m.is_fd and not m.is_extended_frame for m in database.messages)
+
+
+def test_a_joint_states_what_a_real_drive_knows_and_nothing_of_a_simulator(database):
+    for i in range(1, 9):
+        assert [signal.name for signal in database.get_message_by_name(f"JOINT_STATE_{i}").signals] == \
+            ["crc", "counter", "drive_state", "cycle_low4", "position", "velocity", "torque"]
 
 
 def test_every_frame_and_signal_has_a_comment_and_every_float_a_unit_and_a_range(database):

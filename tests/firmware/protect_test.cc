@@ -191,7 +191,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kBusLost, 40},
                                             {Reason::kOperator, 41},
                                             {Reason::kPhaseBudget, 5},
-                                            {Reason::kStall, 6},
+                                            {Reason::kCyclesMissed, 6},
                                             {Reason::kCollision, 7},
                                             {Reason::kPhaseBudgetInRow, 44},
                                             {Reason::kStaleWrench, 43},

@@ -64,7 +64,7 @@ BAD_INPUT = {
     "an unknown scenario": (["--config", "nope"], ["'nope'", "press_known"]),
     "no scenario": ([], ["--config"]),
     "an unknown option": (["--config", "press_known", "--colour", "red"], ["--colour", "--help"]),
-    "an unknown clock": (["--config", "press_known", "--clock", "sundial"], ["--clock", "wall", "lockstep"]),
+    "an unknown clock": (["--config", "press_known", "--clock", "sundial"], ["--clock", "realtime", "wall", "lockstep"]),
     "an unknown bus": (["--config", "press_known", "--bus", "pigeon"], ["pigeon", "socketcan:IFACE"]),
     "a missing interface": (["--config", "press_known", "--bus", "socketcan:no_such0"], ["no_such0"]),
     "a port that is no number": (["--config", "press_known", "--bus", f"udp:{GROUP}:x"], ["udp"]),
@@ -88,6 +88,12 @@ def test_bad_input_is_one_line_and_exit_2(program, case):
     assert len(error.splitlines()) == 1 and error.startswith(f"{program}: "), error
     for word in words:
         assert word in error, error
+
+
+def test_host_pauses_are_refused_where_no_clock_is_followed():
+    status, error = run(FIRMWARE, "--config", "press_known", "--bus", bus(43312), "--clock", "lockstep", "--host-pause")
+    assert status == 2 and len(error.splitlines()) == 1, error
+    assert "--host-pause" in error and "--clock realtime" in error, error
 
 
 def test_a_rate_that_no_wire_could_carry_is_refused_with_the_highest_one():

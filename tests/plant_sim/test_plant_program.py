@@ -93,7 +93,7 @@ def run(*arguments):
     (["--config", "no_such_scenario"], ["no_such_scenario", "press_known"]),
     ([], ["--config"]),
     (["--config", "press_known", "--colour", "red"], ["--colour"]),
-    (["--config", "press_known", "--clock", "sundial"], ["--clock", "wall", "lockstep"]),
+    (["--config", "press_known", "--clock", "sundial"], ["--clock", "realtime", "wall", "lockstep"]),
     (["--config", "press_known", "--bus", "carrier_pigeon"], ["carrier_pigeon", "socketcan:IFACE"]),
     (["--config", "press_known", "--bus", "socketcan:no_such0"], ["no_such0"]),
     (["--config", "press_known", "--arm", "a99"], ["a99", "a5"]),

@@ -45,7 +45,8 @@ Ran RunLoop(OverrunPolicy policy, const std::vector<std::int64_t>& work_ns, std:
   for (const std::int64_t work : work_ns) {
     const std::int64_t start = clock.NowNs();
     clock.Advance(work);
-    const OverrunDecision decision = AfterCycle(policy, deadline, kPeriod, start, clock.NowNs(), in_row, 20);
+    const OverrunDecision decision =
+        AfterCycle(policy, kPeriod, {deadline, start, clock.NowNs()}, in_row, 20);
     in_row = decision.missed_in_row;
     deadline = decision.next.deadline_ns;
     ran.missed += decision.next.missed;
@@ -88,13 +89,13 @@ TEST(OverrunPolicy, StopEndsAtTheFirstOverrun) {
   EXPECT_EQ(ran.action, (std::vector{CycleAction::kRun, CycleAction::kStop}));
 }
 
-TEST(OverrunPolicy, EveryPolicyButStopSurvivesAStallOfTenMilliseconds) {
+TEST(OverrunPolicy, EveryPolicyButStopSurvivesADelayOfTenMilliseconds) {
   for (const auto policy : {OverrunPolicy::kKeepGrid, OverrunPolicy::kSkip, OverrunPolicy::kHold}) {
     EXPECT_EQ(RunLoop(policy, {kShort, 10'500'000, kShort}).action.size(), 3U);
   }
 }
 
-TEST(OverrunPolicy, MoreThanTheAllowedPointsInOneStallStop) {
+TEST(OverrunPolicy, MoreThanTheAllowedPointsInOneDelayStop) {
   EXPECT_NE(RunLoop(OverrunPolicy::kKeepGrid, {20'500'000}).action.back(), CycleAction::kStop);
   EXPECT_EQ(RunLoop(OverrunPolicy::kKeepGrid, {21'500'000}).action.back(), CycleAction::kStop);
 }

@@ -77,8 +77,7 @@ inline telemetry::Snapshot SampleSnapshot(std::int64_t cycle, int dof, int num_p
   s.adaptation.sigma0 = Value(28, 0, cycle);
   s.adaptation.sigma1 = Value(29, 0, cycle);
 
-  s.timing = {101, 102, 103, 104, 105, cycle + 106, cycle + 107, cycle + 108};
-  s.timing.clock_stood = cycle % 2 == 0;
+  s.timing = {101, 102, 103, 104, 105, cycle + 106, cycle + 107, cycle + 108, cycle + 109};
   s.bus = {cycle + 1, cycle + 2, cycle + 3,  cycle + 4,  cycle + 5,  cycle + 6,  cycle + 7,
            cycle + 8, cycle + 9, cycle + 10, cycle + 11, cycle + 12, cycle + 13, cycle + 14};
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reed/firmware/record/encode.h"
-#include "reed/tests/timing/wall_loop_rig.h"
+#include "reed/tests/timing/realtime_loop_rig.h"
 
 namespace reed {
 namespace {

@@ -15,7 +15,7 @@ FORBIDDEN = re.compile(r"\b(malloc|calloc|realloc|free|aligned_alloc|posix_memal
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.+)>:$")
 CALL = re.compile(r"\b(?:call|jmp)\s+[0-9a-f]+ <([^>+]+(?:<.*>)?[^>+]*)>$")
 ROOT_FUNCTION = re.compile(r"^reed::(Cycle<\d+, \d+>::Run|bus::DatagramTransport::(Receive|Send)|bus::(Udp|SocketCan)Transport::(Read|Write)|"
-                           r"RunWall|RunLockstep)\(")
+                           r"RunRealtime|RunOnPausingHost|RunLockstep)\(")
 
 
 def calls(program: Path) -> dict[str, set[str]]:

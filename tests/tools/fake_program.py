@@ -21,6 +21,7 @@ def main() -> int:
         parser.add_argument(option)
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")
+    parser.add_argument("--host-pause", action="store_true")
     options = parser.parse_args()
     ctypes.CDLL(None).prctl(1, 0)  # as the kernel does for a program with file capabilities: no signal when its parent ends
     stopped = []
@@ -42,7 +43,7 @@ def main() -> int:
         (Path(options.log).parent / "plant_had_said").write_text((Path(options.log).parent / "plant.txt").read_text())
         hear_the_plant(Path(options.log).parent)
     for log in filter(None, (options.log, options.plant_log)):
-        write_own_log(Path(log), options.clock or "lockstep")
+        write_own_log(Path(log), "wall" if options.clock in ("realtime", "wall") else "lockstep")
     if behaviour == "die":
         print("bus lost: vcan0 went away", file=sys.stderr)
         return 3

@@ -118,7 +118,7 @@ def messages(cycles: int, clock: str, fault_at_s: float | None):
         timing.cycle_ns = 200_000
         timing.missed = 0 if cycle < 1000 else 3
         timing.overruns = 0 if cycle < 1000 else 1
-        timing.clock_stood = cycle == 1001  # a stall behind the answer of cycle 1000
+        timing.missed_host_paused = 0 if cycle < 1000 else 2
         yield "firmware", "REED_TIMING", timing
 
         plant = stamp(reed.plant_t(), cycle)

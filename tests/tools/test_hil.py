@@ -126,8 +126,8 @@ def test_cantools_reads_the_numbers_that_the_firmware_used(can_run):
 
 
 def test_wall_clock_run_on_socketcan_ends_without_a_fault_and_says_what_it_measured(tmp_path):
-    """In the small VM two programs share one CPU that the host takes away now and then, and a stall of 20 cycles rightly
-    stops an arm: three runs in a row that meet one are no accident."""
+    """In the small VM two programs share one CPU that the host takes away now and then. Where its timers are too coarse to
+    measure that, 20 missed cycles rightly stop an arm: three runs in a row that meet one are no accident."""
     bus = "socketcan:vcan0" if bus_choice.vcan_ready(bus_choice.VCAN) else "vm"
     for attempt in range(3):
         summary = run(tmp_path / str(attempt), "--clock", "wall", "--duration", "2", bus=bus)
@@ -135,7 +135,7 @@ def test_wall_clock_run_on_socketcan_ends_without_a_fault_and_says_what_it_measu
         assert summary["timing_us"]["wake"] is not None and summary["loop"]["heap_allocations"] == 0
         modes = [change["mode"] for change in summary["modes"]]
         if "active" in modes and "fault" not in modes:
-            before = modes[:modes.index("active")]  # once more from off where a stall braked the drives
+            before = modes[:modes.index("active")]  # once more from off where a pause braked the drives
             assert before == ["off", "ready"] * (len(before) // 2)
             assert summary["windows"][-1]["force_rms_N"] is not None
             return

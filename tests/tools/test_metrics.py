@@ -80,9 +80,11 @@ def test_timing_has_no_wake_in_lockstep_and_percentiles_on_the_wall_clock(tmp_pa
     assert wall["timing_us"]["wake"]["p50"] == pytest.approx(20.0 + 1.5495, abs=1e-3)
 
 
-def test_what_the_machine_took_is_told_with_the_cycles_missed_meanwhile(tmp_path, run):
-    assert run["machine"] == dict.fromkeys(("stalls", "stood_s", "missed_cycles")), "lockstep follows no clock"
-    assert build(recorded(tmp_path, clock="wall"))["machine"] == {"stalls": 1, "stood_s": 0.0031, "missed_cycles": 3}
+def test_host_pauses_are_reported_with_the_cycles_missed_in_them(tmp_path, run):
+    assert run["host_pause"] == dict.fromkeys(("count", "host_pause_s", "missed_cycles")), "lockstep follows no clock"
+    paused = build(recorded(tmp_path, clock="wall"))
+    assert paused["host_pause"] == {"count": 1, "host_pause_s": 0.0031, "missed_cycles": 2}
+    assert paused["missed_cycles"] == 3
 
 
 def test_counters_come_from_the_programs_own_messages(run):

@@ -33,7 +33,7 @@ def one_line(done, status):
     (["run", "--duration", "nan"], "duration_s"),
     (["run", "--rate", "-5"], "rate_hz"),
     (["run", "--seed", "1.5"], "seed"),
-    (["run", "--clock", "sundial"], "wall"),
+    (["run", "--clock", "sundial"], "realtime"),
     (["run", "--bus", "token-ring"], "socketcan:IFACE"),
     (["run", "--bus", "udp:10.0.0.1:4000"], "multicast"),
     (["run", "--bus", "udp:239.74.163.2:0"], "65535"),
@@ -123,6 +123,19 @@ def test_the_line_that_repeats_a_run_survives_the_shell(tmp_path, monkeypatch):
     assert shlex.split(origin.command(Arguments)) == ["tools/reed", "run", str(scenario), "--arm", "a5", "--law", f"{law}:gain=2", "--duration", "2.5", "--seed", "7",
                                                       "--bus", "auto", "--clock", "wall", "--set", "wall.normal=[0,0,-1]",
                                                       "--set", "scenario.name=\"it's\""]
+
+
+def test_only_a_controller_in_realtime_on_a_simulated_bus_measures_host_pauses(reed, tmp_path):
+    """`wall` is the old name of the clock."""
+    for clock in ("realtime", "wall"):
+        folder = tmp_path / clock
+        done = reed("run", "--bus", BUS, "--clock", clock, "--out", folder)
+        assert done.returncode == 1, done.stderr
+        firmware, plant = ((folder / f"{name}.options").read_text() for name in ("firmware", "plant"))
+        assert "--clock realtime" in firmware and "--clock realtime" in plant
+        assert "--host-pause" in firmware.split() and "--host-pause" not in plant
+        assert json.loads((folder / "summary.json").read_text())["clock"] == "wall"
+    assert [bus_choice.simulated(bus) for bus in ("udp:239.74.163.2:43113", "vm", "socketcan:vcan0", "socketcan:can0")] == [True, True, True, False]
 
 
 def test_report_rebuilds_the_same_summary(reed, tmp_path):

@@ -6,9 +6,10 @@ from types import SimpleNamespace as Message
 from reed_tools.record import trace_events
 
 
-def timing(cycle: int, missed: int = 0, clock_stood: bool = False) -> tuple:
+def timing(cycle: int, missed: int = 0, missed_host_paused: int = 0) -> tuple:
     return "REED_TIMING", Message(utime=1_000_000 + 1000 * cycle, cycle=cycle, wake_ns=5_000, rx_ns=100_000, compute_ns=20_000,
-                                  tx_ns=8_000, cycle_ns=128_000, missed=missed, clock_stood=clock_stood)
+                                  tx_ns=8_000, cycle_ns=128_000, missed=missed,
+                                  missed_host_paused=missed_host_paused)
 
 
 def test_phases_follow_each_other_without_gap_or_overlap():
@@ -24,13 +25,14 @@ def test_phases_follow_each_other_without_gap_or_overlap():
 def test_misses_late_frames_and_mode_changes_are_instants():
     mode = "REED_EVENT", Message(utime=1_000_500, cycle=0, mode=2, code=1, joint=-1, value=3.0, text="mode changed")
     bus = "REED_BUS", Message(utime=1_002_000, cycle=2, late=4)
-    events, _ = trace_events.trace([timing(0), mode, timing(1, missed=3), bus, timing(2, missed=3, clock_stood=True)])
+    events, _ = trace_events.trace([timing(0), mode, timing(1, missed=3), bus, timing(2, missed=5, missed_host_paused=2)])
     instants = {event["name"]: event["args"] for event in events if event["ph"] == "i"}
-    assert instants["missed"] == {"cycles": 3}
-    assert "the arm's clock had stood still" in instants
+    assert instants["missed"] == {"cycles": 2}, "the last one"
+    assert instants["host pause"] == {"missed cycles": 2}
     assert instants["late frames"] == {"frames": 4}
     assert instants["mode changed"]["mode"] == 2
-    assert len([event for event in events if event["name"] == "missed"]) == 1
+    assert len([event for event in events if event["name"] == "missed"]) == 2
+    assert len([event for event in events if event["name"] == "host pause"]) == 1
 
 
 def test_run_trace_writes_a_file_that_perfetto_reads(reed, tmp_path):

@@ -15,7 +15,7 @@ enum class Reason : std::int32_t {
   kContact = 3,
   kDriveState = 4,
   kPhaseBudget = 5,
-  kStall = 6,
+  kCyclesMissed = 6,
   kCollision = 7,
   kForceZero = 8,
   kStretchHeld = 9,
@@ -64,7 +64,7 @@ constexpr const char* Text(int code) noexcept {
       return "a drive changed state, value is the state";
     case Reason::kPhaseBudget:
       return "a phase was longer than its budget, value is the phase: 0 receive, 1 compute, 2 transmit";
-    case Reason::kStall:
+    case Reason::kCyclesMissed:
       return "cycles were missed, value is how many";
     case Reason::kCollision:
       return "collision: the observed torque of a joint jumped although nothing was to be touched, N·m";

@@ -29,14 +29,13 @@ class Watch {
 
  private:
   Verdict Check(const Measurement<N>& measured, const CycleState& state, const mode::Supervisor& supervisor,
-                const Limits<N>& limits, strategy::ForceSource source,
-                double contact_force) const noexcept {
+                const Limits<N>& limits, strategy::ForceSource source, double contact_force) const noexcept {
     const bool active = supervisor.mode() == mode::Mode::kActive;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
     if (cycles_incomplete_ * T_ > kPatience_s) return Stale(measured);
     if (supervisor.Request() != DriveRequest::kEnable) return {};
-    if (active && state.missed_in_row_exceeded && !state.host_paused)
+    if (active && state.missed_in_row_exceeded)
       return {Reason::kMissedCycles, -1, static_cast<double>(state.missed_in_row), 0};
     if (active && state.phase_budget_exceeded)
       return {Reason::kPhaseBudgetInRow, -1, static_cast<double>(state.broken_in_row), 0};

@@ -54,7 +54,7 @@ def bus_cycle(arguments, folder) -> Found:
 
 
 def bus_time(folder, seconds: int, plant: list[str] | None = None) -> float:
-    table = timing(programs.fly(folder, PORT, "wall", f"scenario.duration_s={seconds}", *pinned(), plant=plant))
+    table = timing(programs.fly(folder, PORT, "realtime", f"scenario.duration_s={seconds}", *pinned(), plant=plant))
     return float(np.median(table["rx_ns"] + table["tx_ns"])) * 1e-3
 
 
@@ -99,7 +99,7 @@ def system_calls(_arguments, folder) -> Found:
     programs.build("reed_count_syscalls")
     budget = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["cycle"]
     found = Found()
-    for clock in ("lockstep", "wall"):
+    for clock in ("lockstep", "realtime"):
         flight = programs.fly(folder, PORT, clock, "scenario.duration_s=1", under=(str(BUILD / "bin" / "reed_count_syscalls"),))
         threads = [json.loads(line)["calls"] for line in flight.text.splitlines() if line.startswith("{")]
         loop = max(threads, key=lambda calls: calls.get(CALLS["sendmmsg"], 0))

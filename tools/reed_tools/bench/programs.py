@@ -90,7 +90,8 @@ def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, .
         if "waiting for SYNC" not in arm.stdout.readline():
             raise RunError(f"the plant did not start: {' '.join(map(str, arm.args))}")
         cpu_before, started = os.times(), time.monotonic()
-        firmware = subprocess.run([*under, str(program("reed_firmware")), *common, "--enable", "--log", str(log)],
+        pauses = ["--host-pause"] if clock == "realtime" else []
+        firmware = subprocess.run([*under, str(program("reed_firmware")), *common, "--enable", "--log", str(log), *pauses],
                                   capture_output=True, text=True, errors="replace")
         wall_s, cpu_after = time.monotonic() - started, os.times()
     finally:

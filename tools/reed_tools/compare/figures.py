@@ -5,11 +5,11 @@ from typing import Any
 
 from reed_tools.show.tables import number
 
-NEVER_SAME = ("wall_s", "timing_us", "machine.stalls", "machine.stood_s", "machine.missed_cycles", "scheduler", "memory_locked",
+NEVER_SAME = ("wall_s", "timing_us", "host_pause", "scheduler", "memory_locked",
               "loop.page_faults", "command")  # differ from one lockstep run to its repetition
 LONGEST_WORD = 24
 SUMMARY = ("verdict", "cause", "digest", "versions", "machine")
-RESULTS = ("clock", "cycles", "missed_cycles", "overruns", "wall_s", "sim_s", "bus", "loop", "timing_us")
+RESULTS = ("clock", "cycles", "missed_cycles", "overruns", "wall_s", "sim_s", "bus", "loop", "timing_us", "host_pause")
 
 
 @dataclass(frozen=True)

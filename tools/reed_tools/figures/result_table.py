@@ -39,7 +39,7 @@ LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware 
 
 def lines(summary: dict) -> list[str]:
     """What does not fit a table."""
-    bus, loop, machine = summary["bus"], summary["loop"], summary["machine"]
+    bus, loop, pause = summary["bus"], summary["loop"], summary["host_pause"]
     wire = number(bus["wire_load_percent"], 3)
     speed = f", {summary['sim_s'] / summary['wall_s']:.1f}× real time" if summary["wall_s"] else ""
     return [
@@ -48,8 +48,8 @@ def lines(summary: dict) -> list[str]:
         f"{wire} % of a 1/5 Mbit/s wire",
         f"clock  {summary['clock']}, {summary['rate_hz']:g} Hz, {summary['cycles']} cycles, {number(summary['missed_cycles'])} missed, "
         f"{number(summary['overruns'])} overruns{speed}",
-        *([f"stalls {machine['stalls']} of the machine, {1e3 * machine['stood_s']:.0f} ms in all, {machine['missed_cycles']} of the missed "
-           "cycles: the arm's clock stood still"] if machine["stalls"] else []),
+        *([f"host   {pause['count']} host pauses, {1e3 * pause['host_pause_s']:.0f} ms in all, {pause['missed_cycles']} of the missed cycles "
+           "in them; the arm's clock was held"] if pause["count"] else []),
         f"loop   {number(loop['heap_allocations'])} heap allocations, {number(loop['page_faults'])} page faults, "
         f"{number(loop['telemetry_dropped'])} snapshots dropped; "
         f"scheduler {loop['scheduler'] or 'unknown'}, memory {LOCKED[loop['memory_locked']]}",

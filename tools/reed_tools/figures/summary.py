@@ -4,8 +4,6 @@ import hashlib
 import json
 from pathlib import Path
 
-import numpy as np
-
 from reed_tools.figures import checks, events, metrics
 from reed_tools.figures.run_data import RunData
 from reed_tools.record import configuration, run_folder
@@ -43,7 +41,8 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "checks": verdicts,
         "bus": bus(recording),
         **clock_figures(recording, rate_hz),
-        "machine": {**(origin["machine"] or {}), **stalls(recording, clock)},
+        "machine": origin["machine"] or {},
+        "host_pause": host_pause(recording, clock),
         "timing_us": metrics.timing_us(recording, clock),
         "loop": {name: getattr(recording.finished_run, name, None) for name in
                  ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
@@ -83,17 +82,14 @@ def clock_figures(recording: Recording, rate_hz: float) -> dict:
             "wall_s": round(recording.finished_run.wall_s, 6) if recording.finished_run else None, "sim_s": round(count / rate_hz, 6)}
 
 
-def stalls(recording: Recording, clock: str | None) -> dict:
-    """What the machine took from the run: how often it ran neither program, for how long the arm's clock stood still with them,
-    and the cycles missed meanwhile. None where no clock is followed."""
+def host_pause(recording: Recording, clock: str | None) -> dict:
+    """How often and for how long the bench's host ran neither program, and the cycles that were missed in it: the plant held the
+    arm's clock, and the controller did not count them against itself. None where no clock is followed."""
     timing, plant = recording.tables["REED_TIMING"], recording.tables["REED_PLANT"]
     if clock != "wall" or not recording.has("REED_TIMING") or not recording.has("REED_PLANT"):
-        return dict.fromkeys(("stalls", "stood_s", "missed_cycles"))
-    # A stall before the cycle is reported in its own answer, one behind the answer in the next cycle's.
-    reported = timing["clock_stood"].astype(bool)
-    away = reported | np.append(reported[1:], False)
-    return {"stalls": int(plant["stalls"][-1]), "stood_s": round(float(plant["stood_s"][-1]), 6),
-            "missed_cycles": int(np.diff(timing["missed"], prepend=0)[away].sum())}
+        return dict.fromkeys(("count", "host_pause_s", "missed_cycles"))
+    return {"count": int(plant["stalls"][-1]), "host_pause_s": round(float(plant["stood_s"][-1]), 6),
+            "missed_cycles": int(timing["missed_host_paused"][-1])}
 
 
 def write(folder: Path, summary: dict) -> None:

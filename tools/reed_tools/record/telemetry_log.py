@@ -46,7 +46,7 @@ class Recording:
 
     def digest(self, clock: str) -> str:
         """SHA-256 over the SHA-256 of each channel's encoded messages in cycle order. The plant's truth belongs to it in
-        lockstep only: on a wall clock it is not the controller's state, and its samples depend on the machine."""
+        lockstep only: in realtime it is not the controller's state, and its samples depend on the machine."""
         total = hashlib.sha256()
         for channel in DIGEST_CHANNELS:
             if channel != "REED_PLANT" or clock == "lockstep":

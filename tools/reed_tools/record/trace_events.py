@@ -25,7 +25,7 @@ def write(log: Path, target: Path) -> int:
 
 def trace(messages) -> tuple[list[dict], int]:
     events = [name(LOOP, "control loop"), name(EVENTS, "events")]
-    start, cycles, missed, late = None, 0, 0, 0
+    start, cycles, missed, missed_host_paused, late = None, 0, 0, 0, 0
     for channel, message in messages:
         start = message.utime if start is None else start
         at_us = float(message.utime - start)
@@ -35,8 +35,10 @@ def trace(messages) -> tuple[list[dict], int]:
             if message.missed > missed:
                 events.append(instant("missed", at_us + message.cycle_ns / 1e3, {"cycles": message.missed - missed}))
             missed = message.missed
-            if message.clock_stood:
-                events.append(instant("the arm's clock had stood still", at_us, {}))
+            if message.missed_host_paused > missed_host_paused:
+                events.append(instant("host pause", at_us + message.cycle_ns / 1e3,
+                                      {"missed cycles": message.missed_host_paused - missed_host_paused}))
+            missed_host_paused = message.missed_host_paused
         elif channel == "REED_EVENT":
             events.append(instant(message.text, at_us, {"code": message.code, "joint": message.joint, "value": message.value,
                                                         "mode": message.mode, "cycle": message.cycle}))

@@ -33,6 +33,11 @@ def choose(wanted: str) -> str:
     raise UsageError(f"--bus {wanted}: allowed are {ALLOWED}")
 
 
+def simulated(bus: str) -> bool:
+    """Whether no real drive can be on it, by the rule of bus/transport/transport.h."""
+    return bus == "vm" or bus.startswith(("udp", "socketcan:vcan"))
+
+
 def socketcan(wanted: str) -> str:
     name = wanted.removeprefix("socketcan:")
     if not INTERFACE_NAME.fullmatch(name):

@@ -33,8 +33,9 @@ def add_arguments(parser) -> None:
     parser.add_argument("--bus", default="auto", metavar="BUS",
                         help="auto (vcan if it exists or can be created, else udp), socketcan:IFACE, udp[:GROUP:PORT], "
                              "vm (real SocketCAN inside a small VM), memory (one process, in lockstep)")
-    parser.add_argument("--clock", choices=("wall", "lockstep"),
-                        help="wall (default, but for --bus memory): paced by the clock; lockstep: as fast as possible, bit-reproducible")
+    parser.add_argument("--clock", choices=("realtime", "wall", "lockstep"),
+                        help="realtime (default, but for --bus memory; wall is its old name): paced by the clock; "
+                             "lockstep: as fast as possible, bit-reproducible")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
                         help="override any number of the scenario or arm; repeatable")
     parser.add_argument("--law", metavar="LIB.so|FILE.py",
@@ -60,7 +61,8 @@ def run(arguments) -> int:
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {clock} clock"), flush=True)
-        plan = plans.make(effective, folder / "effective.toml", bus, clock, folder, law=law.spec, environment=law.environment)
+        plan = plans.make(effective, folder / "effective.toml", bus, clock, folder, law=law.spec, environment=law.environment,
+                          host_pause=clock == "realtime" and bus_choice.simulated(bus))
         with live_page.beside() if arguments.live else contextlib.nullcontext():
             with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
                 outcome = vm.run(plan, on_progress) if bus == "vm" else hil.run(plan, on_progress)
@@ -74,10 +76,10 @@ def say_where(folder: Path) -> None:
 
 
 def clock_on(bus: str, asked: str | None) -> str:
-    if bus == hil.MEMORY and asked == "wall":
-        raise UsageError("--bus memory --clock wall: controller and plant of one process take turns, no clock paces them; "
+    if bus == hil.MEMORY and asked in ("realtime", "wall"):
+        raise UsageError(f"--bus memory --clock {asked}: controller and plant of one process take turns, no clock paces them; "
                          "allowed: --clock lockstep, or another bus")
-    return asked or ("lockstep" if bus == hil.MEMORY else "wall")
+    return "lockstep" if asked == "lockstep" or bus == hil.MEMORY else "realtime"
 
 
 def clear(folder: Path) -> None:

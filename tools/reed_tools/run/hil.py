@@ -22,7 +22,7 @@ POLL_S = 0.05
 STACK_BYTES = 8 << 20     # what Linux gives by itself
 STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
-STALL_S = 30.0           # no recorded cycle for this long: something hangs
+SILENCE_S = 30.0         # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
 MEMORY = "memory"        # the bus of controller and plant in one process
 
@@ -40,6 +40,7 @@ class Plan:
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
     entries: list[str] = field(default_factory=list)  # KEY=VALUE, over what the configuration says
+    host_pause: bool = False  # a bench whose host may pause: the controller's watch measures it
 
     @property
     def controller(self) -> str:
@@ -90,7 +91,7 @@ def on_bus(name: str, plan: Plan) -> list[str]:
 def controls(plan: Plan) -> list[str]:
     """Of the program that controls, behind what all have."""
     frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
-    return ["--enable", *frames, *(["--law", plan.law] if plan.law else [])]
+    return ["--enable", *frames, *(["--law", plan.law] if plan.law else []), *(["--host-pause"] if plan.host_pause else [])]
 
 
 def said(plan: Plan, name: str) -> list[str]:
@@ -205,8 +206,8 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
         size = tail.size()
         if size != last_size:
             last_size, last_growth = size, now
-        if now - last_growth > STALL_S:
-            outcome.stopped_because = f"the loop recorded nothing for {STALL_S:g} s"
+        if now - last_growth > SILENCE_S:
+            outcome.stopped_because = f"the loop recorded nothing for {SILENCE_S:g} s"
             return
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now

@@ -32,7 +32,7 @@ def run(plan: hil.Plan, on_progress) -> hil.Outcome:
         json.dump(asdict(inner), file)
         file.flush()
         inside = command([*PYTHON, str(hil.PROGRAM), file.name], START_S + SLOWEST_CYCLE_S * plan.most_cycles,
-                         realtime=plan.clock == "wall")
+                         realtime=plan.clock == "realtime")
         with Guard() as guard:
             process = subprocess.Popen(inside, stdout=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
             guard.watch(process)

@@ -1,4 +1,4 @@
-#include "reed/plant/process/stall_watch.h"
+#include "reed/rt/host_pause_watch.h"
 
 #include <ctime>
 #include <future>
@@ -8,28 +8,28 @@
 #include "reed/rt/monotonic.h"
 #include "reed/rt/rights.h"
 
-namespace reed::plant {
+namespace reed::rt {
 namespace {
 
 std::int64_t TimerResolution_ns() {
   timespec resolution{};
   clock_getres(CLOCK_MONOTONIC, &resolution);
-  return resolution.tv_sec * rt::kNsPerSecond + resolution.tv_nsec;
+  return resolution.tv_sec * kNsPerSecond + resolution.tv_nsec;
 }
 
 /// Core and priority for this thread; why they are refused, or "".
 std::string Ask(int core, int priority) {
-  if (rt::PinTo(core) && rt::RaiseTo(priority)) return "";
-  return "stalls of the machine hurt the arm: SCHED_FIFO " + std::to_string(priority) + " on core " +
-         std::to_string(core) + " not granted to the thread that would tell them (" + rt::ErrnoText() +
+  if (PinTo(core) && RaiseTo(priority)) return "";
+  return "host pauses are not measured: SCHED_FIFO " + std::to_string(priority) + " on core " +
+         std::to_string(core) + " not granted to the thread that would measure them (" + ErrnoText() +
          "); fix: run as root, or rtprio 99 in /etc/security/limits.conf";
 }
 
 }  // namespace
 
-std::string StallWatch::Start(int core, int priority) {
-  if (TimerResolution_ns() > kStall_ns) {
-    return "stalls of the machine hurt the arm, its timers are too coarse to tell them (" +
+std::string HostPauseWatch::Start(int core, int priority) {
+  if (TimerResolution_ns() > kPause_ns) {
+    return "host pauses are not measured: the timers are too coarse (" +
            std::to_string(TimerResolution_ns() / 1000) + " us); fix: a kernel with CONFIG_HIGH_RES_TIMERS";
   }
   std::promise<std::string> asked;
@@ -42,22 +42,22 @@ std::string StallWatch::Start(int core, int priority) {
   return answer.get();
 }
 
-StallWatch::~StallWatch() {
+HostPauseWatch::~HostPauseWatch() {
   stop_.store(true, std::memory_order_relaxed);
   if (thread_.joinable()) thread_.join();
 }
 
-void StallWatch::Watch() noexcept {
-  std::int64_t due_ns = rt::NowNs();
+void HostPauseWatch::Watch() noexcept {
+  std::int64_t due_ns = NowNs();
   while (!stop_.load(std::memory_order_relaxed)) {
     due_ns += kBeat_ns;
-    const timespec due{due_ns / rt::kNsPerSecond, due_ns % rt::kNsPerSecond};
+    const timespec due{due_ns / kNsPerSecond, due_ns % kNsPerSecond};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
-    const std::int64_t late_ns = rt::NowNs() - due_ns;
-    if (late_ns < kStall_ns) continue;
-    stood_ns_.store(stood_ns_.load(std::memory_order_relaxed) + late_ns, std::memory_order_relaxed);
+    const std::int64_t late_ns = NowNs() - due_ns;
+    if (late_ns < kPause_ns) continue;
+    paused_ns_.store(paused_ns_.load(std::memory_order_relaxed) + late_ns, std::memory_order_relaxed);
     due_ns += late_ns;
   }
 }
 
-}  // namespace reed::plant
+}  // namespace reed::rt

@@ -1,4 +1,4 @@
-// The loop on the clock over a clock and a cycle that the test moves.
+// The realtime loop over a clock and a cycle that the test moves.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,23 @@ namespace reed {
 inline constexpr std::int64_t kPeriod = 1'000'000;
 inline constexpr std::int64_t kMs = 1'000'000;
 
+/// The same clock, which does not say what of its time was a host pause.
+struct WithoutPauses {
+  test::PausingVirtualClock& clock;
+  std::int64_t NowNs() const noexcept { return clock.NowNs(); }
+  void SleepUntil(std::int64_t deadline_ns) noexcept { clock.SleepUntil(deadline_ns); }
+};
+static_assert(!rt::HostClock<WithoutPauses>);
+
 struct Rig {
   explicit Rig(int cycles) : cycle(clock, cycles), ring(256) {}
 
-  LoopResult Run() { return WallLoop(clock, options, cycle, ring).Run(stop); }
+  LoopResult Run() { return RealtimeLoop(clock, options, cycle, ring).Run(stop); }
+  /// As on real drives, where nobody measures host pauses.
+  LoopResult RunOnRealDrives() {
+    WithoutPauses plain{clock};
+    return RealtimeLoop(plain, options, cycle, ring).Run(stop);
+  }
 
   std::vector<telemetry::Snapshot> Recorded() {
     std::vector<telemetry::Snapshot> all;
@@ -24,7 +37,7 @@ struct Rig {
   }
 
   /// Cycle 5 loses this much time behind its last border.
-  void StallAt5(std::int64_t ns) {
+  void DelayAt5(std::int64_t ns) {
     cycle.cost = [ns](std::uint32_t k) {
       test::CycleCost cost;
       cost.after = k == 5 ? ns : 0;
@@ -32,7 +45,7 @@ struct Rig {
     };
   }
 
-  rt::VirtualClock clock{7'000};
+  test::PausingVirtualClock clock{7'000};
   test::FakeCycle cycle;
   telemetry::SnapshotRing ring;
   LoopOptions options;
