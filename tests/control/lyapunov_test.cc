@@ -13,6 +13,7 @@
 #include "reed/core/law/unknown_force.h"
 #include "reed/core/model/dynamics.h"
 #include "reed/core/model/regressor.h"
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/tests/support/arms.h"
 
 namespace reed {

@@ -83,7 +83,9 @@ TEST(JointPath, ValueSpeedAndAccelerationAreContinuousAtEveryKnot) {
 }
 
 TEST(JointPath, RestsBeforeItsStartAndAfterItsEnd) {
-  const Path path({{Vec2(1, 2), Vec2(3, 4), Vec2(5, 6)}, {Vec2(7, 8), Vec2(9, 1), Vec2(2, 3)}}, 0.1);
+  const std::vector<Path::Knot> knots{{Vec2(1, 2), Vec2(3, 4), Vec2(5, 6)},
+                                      {Vec2(7, 8), Vec2(9, 1), Vec2(2, 3)}};
+  const Path path(knots, 0.1);
   EXPECT_DOUBLE_EQ(path.duration_s(), 0.1);
   EXPECT_EQ(path.At(-1.0).theta_d, Vec2(1, 2));
   EXPECT_EQ(path.At(0.0).theta_d, Vec2(1, 2));
@@ -95,12 +97,7 @@ TEST(JointPath, RestsBeforeItsStartAndAfterItsEnd) {
 }
 
 TEST(ForceProfile, RampsUpFromTheLaterOfStartAndContactAndDownAtItsEnd) {
-  ForceConfig config;
-  config.desired_N = 8.0;
-  config.start_s = 0.3;
-  config.ramp_s = 0.5;
-  config.end_s = 2.0;
-  const ForceProfile profile(config);
+  const ForceProfile profile{8.0, 0.3, 0.5, 2.0};
   EXPECT_EQ(profile.At(0.3, 0.1), 0.0);
   EXPECT_NEAR(profile.At(0.55, 0.1), 4.0, 1e-12);
   EXPECT_NEAR(profile.At(0.55, 0.5), 8.0 * MinimumJerk(0.05, 0.5).s, 1e-12) << "contact came later";

@@ -19,7 +19,8 @@ TEST(PathPlanner, ACartesianLegIsAStraightMinimumJerkLineOfTheTip) {
   Bench<5> bench(test::ArmA5());
   ReferenceLeg leg = Leg(ReferenceLeg::Kind::kCartesian, 0.5);
   leg.by_m = Eigen::Vector3d(0.02, -0.01, -0.03);
-  const JointPath<5> path = bench.Plan(PoseA5(), {leg});
+  const PlannedPath<5> planned = bench.Plan(PoseA5(), {leg});
+  const JointPath<5> path = planned.View();
   const Eigen::Vector3d start = bench.At(PoseA5()).tip;
   for (int k = 0; k < 37; ++k) {
     const double t = 0.0137 * k;
@@ -38,7 +39,8 @@ TEST(PathPlanner, ASlideIsASinusoidOfTheTipAboutTheStartOfItsLeg) {
   ReferenceLeg leg = Leg(ReferenceLeg::Kind::kSlide, 10.0);
   leg.amplitude_m = Eigen::Vector3d(0.02, 0.02, 0.0);
   leg.frequency_hz = 0.5;
-  const JointPath<5> path = bench.Plan(PoseA5(), {hold, leg});
+  const PlannedPath<5> planned = bench.Plan(PoseA5(), {hold, leg});
+  const JointPath<5> path = planned.View();
   const Eigen::Vector3d start = bench.At(PoseA5()).tip;
   EXPECT_EQ(path.At(0.1).theta_d, PoseA5());
   for (int k = 0; k < 48; ++k) {
@@ -58,7 +60,8 @@ TEST(PathPlanner, JointLegsFollowEachOtherWithoutAJump) {
   sine.amplitude_rad = {0.1, 0.2};
   sine.frequency_hz = 1.0;
   const model::Vec<2> start(0.4, 1.1);
-  const JointPath<2> path = bench.Plan(start, {move, Leg(ReferenceLeg::Kind::kHold, 0.2), sine});
+  const PlannedPath<2> planned = bench.Plan(start, {move, Leg(ReferenceLeg::Kind::kHold, 0.2), sine});
+  const JointPath<2> path = planned.View();
   EXPECT_LT((path.At(0.3).theta_d - 0.5 * (start + model::Vec<2>(0.8, -0.5))).norm(), 1e-12);
   EXPECT_LT((path.At(0.7).theta_d - model::Vec<2>(0.8, -0.5)).norm(), 1e-12);
   EXPECT_LT((path.At(1.55).theta_d - model::Vec<2>(0.8, -0.5) -
@@ -81,7 +84,8 @@ TEST(PathPlanner, ALegThatStillMovesWhenTheRunEndsDoesSoSmoothlyToTheLastCycle) 
   ReferenceLeg swing = Leg(ReferenceLeg::Kind::kSine, bench.scenario.duration_s);
   swing.amplitude_rad.assign(5, 0.1);
   swing.frequency_hz = 0.6;
-  const JointPath<5> path = bench.Plan(PoseA5(), {swing});
+  const PlannedPath<5> planned = bench.Plan(PoseA5(), {swing});
+  const JointPath<5> path = planned.View();
   const double w = 2.0 * 3.14159265358979 * swing.frequency_hz;
   for (int k = 0; k <= 50; ++k) {
     const double t = bench.scenario.duration_s - 0.05 + 1e-3 * k;
@@ -93,7 +97,8 @@ TEST(PathPlanner, ALegThatStillMovesWhenTheRunEndsDoesSoSmoothlyToTheLastCycle) 
 
 TEST(PathPlanner, TheKnotsHoldTheRunEvenWhenTheLegsAreShorterThanOneSpacing) {
   Bench<2> bench(test::ArmP2());
-  const JointPath<2> path = bench.Plan({0.4, 1.1}, {Leg(ReferenceLeg::Kind::kHold, 1e-3)});
+  const PlannedPath<2> planned = bench.Plan({0.4, 1.1}, {Leg(ReferenceLeg::Kind::kHold, 1e-3)});
+  const JointPath<2> path = planned.View();
   EXPECT_EQ(path.At(0.01).theta_d, model::Vec<2>(0.4, 1.1));
 }
 
@@ -117,7 +122,8 @@ TEST(PathPlanner, LegsThatEndBetweenTwoKnotsReachTheirEnds) {
   there.to_rad = {0.42, 1.1};
   back.to_rad = {0.4, 1.08};
   const ReferenceLeg hold = Leg(ReferenceLeg::Kind::kHold, 0.0411);
-  const JointPath<2> path = bench.Plan({0.4, 1.1}, {there, hold, back, hold});
+  const PlannedPath<2> planned = bench.Plan({0.4, 1.1}, {there, hold, back, hold});
+  const JointPath<2> path = planned.View();
   EXPECT_LT((path.At(0.075).theta_d - model::Vec<2>(0.42, 1.1)).norm(), 1e-12);
   EXPECT_LT((path.At(0.18).theta_d - model::Vec<2>(0.4, 1.08)).norm(), 1e-12);
 }
@@ -130,7 +136,8 @@ TEST(PathPlanner, ASineOrASlideThatEndsWithinTheRunEndsAtRest) {
   ReferenceLeg slide = Leg(ReferenceLeg::Kind::kSlide, 0.45);
   slide.amplitude_m = Eigen::Vector3d(0.02, 0.02, 0.0);
   slide.frequency_hz = 1.0;
-  const JointPath<5> path = bench.Plan(PoseA5(), {sine, slide, Leg(ReferenceLeg::Kind::kHold, 0.2)});
+  const PlannedPath<5> planned = bench.Plan(PoseA5(), {sine, slide, Leg(ReferenceLeg::Kind::kHold, 0.2)});
+  const JointPath<5> path = planned.View();
   EXPECT_LT((path.At(0.7).theta_d - PoseA5()).norm(), 1e-9);
   control::Reference<5> before = path.At(0.0);
   for (int k = 1; k < 1300; ++k) {

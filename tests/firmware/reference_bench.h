@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/setup/path_planner.h"
 #include "reed/tests/support/arms.h"
 
@@ -13,7 +14,7 @@ namespace reed::reference {
 /// Forward kinematics of one arm, and a scenario with wide limits.
 template <int N>
 struct Bench {
-  explicit Bench(const ArmDescription& arm) : model(arm) {
+  explicit Bench(const ArmDescription& arm) : model(model::ArmModelFrom<N, 12>(arm)) {
     scenario.arm = arm;
     scenario.arm.position_min_rad.assign(N, -3.0);
     scenario.arm.position_max_rad.assign(N, 3.0);
@@ -28,7 +29,7 @@ struct Bench {
   PoseOf<N> pose_of() const {
     return [this](const model::Vec<N>& q) { return At(q); };
   }
-  JointPath<N> Plan(const model::Vec<N>& start, const std::vector<ReferenceLeg>& legs) {
+  PlannedPath<N> Plan(const model::Vec<N>& start, const std::vector<ReferenceLeg>& legs) {
     scenario.reference.start_rad.assign(start.data(), start.data() + N);
     scenario.reference.legs = legs;
     return PathPlanner<N>(pose_of(), scenario).Plan();

@@ -21,7 +21,7 @@ Eigen::Matrix4d Craig(const DhRow& row, double theta) {
 class SkewArmKinematics : public ::testing::Test {
  protected:
   const ArmDescription description_ = test::SkewArm();
-  const ArmModel<6, 4> arm_{description_};
+  const ArmModel<6, 4> arm_ = ArmModelFrom<6, 4>(description_);
   test::Draw draw_{1};
 
   Kinematics<6> At(const Vec<6>& q, const Vec<6>& qd) const {

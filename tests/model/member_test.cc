@@ -72,10 +72,9 @@ TEST(LayOnMember, FindsTheUniformRodAndTheTipMassThatABodyIsMadeOf) {
   beam.axis = 0;
   beam.start_at = 0.0;
   beam.end_at = beam.length = 0.35;
-  MassMoments body(
-      InertialBody{0.7, Eigen::Vector3d(0.175, 0.0, 0.0),
-                   test::Symmetric(0.0, 0.0, 0.0, 0.7 * 0.1225 / 12.0, 0.0, 0.7 * 0.1225 / 12.0)});
-  body.Add(1.0, MassMoments(InertialBody{0.5, Eigen::Vector3d(0.35, 0.02, 0.0), Eigen::Matrix3d::Zero()}));
+  MassMoments body(0.7, Eigen::Vector3d(0.175, 0.0, 0.0),
+                   test::Symmetric(0.0, 0.0, 0.0, 0.7 * 0.1225 / 12.0, 0.0, 0.7 * 0.1225 / 12.0));
+  body.Add(1.0, MassMoments(0.5, Eigen::Vector3d(0.35, 0.02, 0.0), Eigen::Matrix3d::Zero()));
   const MassOnMember mass = LayOnMember(body, beam);
   EXPECT_NEAR(mass.spread, 0.7, 1e-12);
   EXPECT_NEAR(mass.end, 0.5, 1e-12);
@@ -89,7 +88,7 @@ TEST(LayOnMember, CountsFromTheStartOfAMemberThatPointsBackwards) {
   beam.start_at = 0.15;  // d = -0.15: from +z to the origin
   beam.end_at = 0.0;
   beam.length = 0.15;
-  const MassMoments at_start(InertialBody{1.0, Eigen::Vector3d(0.0, 0.0, 0.15), Eigen::Matrix3d::Zero()});
+  const MassMoments at_start(1.0, Eigen::Vector3d(0.0, 0.0, 0.15), Eigen::Matrix3d::Zero());
   EXPECT_NEAR(LayOnMember(at_start, beam).start, 1.0, 1e-12);
   EXPECT_NEAR(LayOnMember(at_start, beam).end, 0.0, 1e-12);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reed/core/model/dynamics.h"
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/tests/model/states.h"
 
 namespace reed::model {
@@ -16,7 +17,7 @@ template <typename Size>
 class Identities : public ::testing::Test {
  protected:
   using Joints = Vec<Size::kN>;
-  const ArmModel<Size::kN, Size::kP> arm_{Size::Describe()};
+  const ArmModel<Size::kN, Size::kP> arm_ = ArmModelFrom<Size::kN, Size::kP>(Size::Describe());
   const Bodies<Size::kN> bodies_ = BodiesFor(arm_, arm_.p_true);
   test::Draw draw_{7};
 
