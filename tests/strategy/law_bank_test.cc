@@ -68,7 +68,7 @@ class LawBankTest : public testing::Test {
 };
 
 TEST_F(LawBankTest, AnUnknownNameIsNoLaw) {
-  EXPECT_THROW((LawBank<N, P>::Find("sliding")), std::runtime_error);
+  EXPECT_THROW(reed::internal::LawIdOf("sliding"), std::runtime_error);
 }
 
 TEST_F(LawBankTest, PdWithThePapersGainsKnowsNoModelAndNoForce) {
@@ -121,7 +121,9 @@ TEST_F(LawBankTest, ThePapersCorrectedLawHasItsGainsAndRates) {
   const VecP Yts = regressor.Y.transpose() * s;
   EXPECT_LT((corrected.after_known.p_hat - (arm.p_nominal + 1e-3 * 0.05 * Yts)).norm(), 1e-12);
   EXPECT_NEAR(corrected.after_unknown.sigma_1, 1e-3 * 0.015 * s.lpNorm<1>(), 1e-15);
-  EXPECT_LT((corrected.after_unknown.eta_hat - AdaptiveState<N, P>(Gains<N, P>(scenario, arm)).eta_hat -
+  EXPECT_LT((corrected.after_unknown.eta_hat -
+             AdaptiveState<N, P>(GainsFrom<N, P>(scenario.control, scenario.arm, arm, LawId::kPaperCorrected))
+                 .eta_hat -
              1e-3 * 0.015 * Yts.cwiseAbs())
                 .norm(),
             1e-12);

@@ -65,7 +65,8 @@ class LawBank {
 
   /// external: not nullptr for kExternal.
   static const Law<N, P>& Get(LawId id, const ExternalLaw* external = nullptr) noexcept {
-    if (id != LawId::kExternal) return kLaws[static_cast<std::size_t>(id)];
+    if (id != LawId::kExternal || external == nullptr)
+      return kLaws[id == LawId::kExternal ? 0 : static_cast<std::size_t>(id)];
     return kExternalLaws[external->traits & (REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION)];
   }
 
