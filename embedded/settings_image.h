@@ -87,7 +87,8 @@ void VisitSettings(Each each, Settings<N, P>& s) {
   visit(s.law);
   Visit(visit, s.force_mode);
   visit.All(s.force.desired_N, s.force.start_s, s.force.ramp_s, s.force.end_s);
-  visit.All(s.source, s.normal, s.reach_m, s.force_noise_N, s.wall_present, s.compensate_deflection, s.velocity_filter_hz);
+  visit.All(s.source, s.normal, s.reach_m, s.force_noise_N, s.wall_present, s.compensate_deflection,
+            s.velocity_filter_hz);
   Visit(visit, s.limits);
   visit.All(s.rate_hz, s.duration_s, s.start_wanted);
 }

@@ -14,7 +14,8 @@ struct SinkReport {
 
   /// One line of what went wrong and how many of `what` it cost.
   std::string Loss(const char* what) const {
-    return problem + " (" + std::to_string(lost) + " " + what + " lost, " + std::to_string(written) + " written)";
+    return problem + " (" + std::to_string(lost) + " " + what + " lost, " + std::to_string(written) +
+           " written)";
   }
 };
 

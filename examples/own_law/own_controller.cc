@@ -46,8 +46,14 @@ reed::Settings<N, P> TwoLinks() {
   s.gains.K_o = 80.0;
   s.gains.friction_speed = 0.01;
   s.law = reed::strategy::LawId::kFixedNominal;
-  s.limits = {
-      s.arm.torque_limit, 20.0, s.arm.position_min, s.arm.position_max, s.arm.speed_limit, 60.0, 2, 10};
+  s.limits = {s.arm.torque_limit,
+              Vec::Constant(20.0),
+              s.arm.position_min,
+              s.arm.position_max,
+              s.arm.speed_limit,
+              60.0,
+              2,
+              10};
   s.duration_s = 1.0;
   s.start_wanted = true;
   return s;

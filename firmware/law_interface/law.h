@@ -76,7 +76,7 @@ const char* reed_law_start(const reed_law_setup*,
 void reed_law_step(const reed_law_input*, void* state, reed_law_output*); /* real time: see above */
 
 /* Optional. */
-uint32_t reed_law_traits(void);                /* asked after start; absent: REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION */
+uint32_t reed_law_traits(void); /* asked after start; absent: REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION */
 const char* const* reed_law_value_names(void); /* up to REED_LAW_MAX_VALUES names, then NULL */
 void reed_law_stop(void* state);               /* after the loop */
 

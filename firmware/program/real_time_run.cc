@@ -18,8 +18,9 @@ namespace reed {
 namespace {
 
 /// The loop and nothing else, counted.
-void RunCounted(const ControlOptions& options, const LoopOptions& loop, const rt::HostPauseWatch* watch, CycleBase& cycle,
-                telemetry::SnapshotRing& ring, const std::atomic<bool>& stop, RealTimeRun& run) noexcept {
+void RunCounted(const ControlOptions& options, const LoopOptions& loop, const rt::HostPauseWatch* watch,
+                CycleBase& cycle, telemetry::SnapshotRing& ring, const std::atomic<bool>& stop,
+                RealTimeRun& run) noexcept {
   const bool realtime = options.clock == rt::ClockKind::kRealtime;
   const rt::Usage before = rt::ThreadUsage();
   const rt::HeapCount heap;

@@ -9,8 +9,8 @@
 #include "reed/core/model/kinematics.h"
 #include "reed/core/settings.h"
 #include "reed/firmware/setup/arm_model.h"
-#include "reed/firmware/setup/gains.h"
 #include "reed/firmware/setup/contact_checks.h"
+#include "reed/firmware/setup/gains.h"
 #include "reed/firmware/setup/path_planner.h"
 
 namespace reed {

@@ -1,8 +1,8 @@
 // The bending plant at rest against the controller's finite matrix analysis (4)-(6): two routes, one arm.
 #include <gtest/gtest.h>
 
-#include "reed/firmware/setup/arm_model.h"
 #include "reed/core/model/static_deflection.h"
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/stiffness/finite_matrix_arm.h"
 #include "reed/plant/dynamics/modes.h"
 #include "reed/tests/plant_dynamics/bench.h"
@@ -15,7 +15,8 @@ using model::Vec;
 
 class AgreementTest : public testing::TestWithParam<std::vector<double>> {
  protected:
-  AgreementTest() : arm_(model::ArmModelFrom<5, 6>(test::ArmA5())), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
+  AgreementTest()
+      : arm_(model::ArmModelFrom<5, 6>(test::ArmA5())), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
     model::ForwardKinematics<5>(arm_, q_, Vec<5>::Zero(), kin_);
   }
 

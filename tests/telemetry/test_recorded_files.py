@@ -107,7 +107,7 @@ def test_adaptation_is_bit_exact(events, types):
 def test_timing_bus_and_events_are_exact(events, types):
     for t in decoded(events, "REED_TIMING", types.timing_t):
         assert [t.wake_ns, t.rx_ns, t.compute_ns, t.tx_ns, t.cycle_ns] == [101, 102, 103, 104, 105]
-        assert [t.missed, t.overruns, t.dropped] == [t.cycle + 106, t.cycle + 107, t.cycle + 108]
+        assert [t.missed, t.missed_host_paused, t.overruns, t.dropped] == [t.cycle + 106 + i for i in range(4)]
 
     counters = decoded(events, "REED_BUS", types.bus_t)
     assert [b.cycle for b in counters] == [0, 100, 200, 300, 320]

@@ -128,7 +128,7 @@ def test_an_interrupted_run_closes_the_brakes_and_writes_its_figures(tmp_path, n
     assert "brakes closed" in (tmp_path / "one_process.txt").read_text()
 
 
-@pytest.mark.parametrize("option, status, told", [("--log", 0, "reed_firmware: /dev/full: "), ("--plant-log", 3, "reed_plant_sim: the log ")])
+@pytest.mark.parametrize("option, status, told", [("--log", 0, "reed_firmware: /dev/full: "), ("--plant-log", 3, "reed_plant_sim: /dev/full: ")])
 def test_a_full_disk_is_told_and_the_run_goes_on_to_its_end(option, status, told):
     """As by two programs: the controller counts what it lost, a plant's incomplete truth is an error."""
     done = subprocess.run([PROGRAM, "--config", "press_known", "--set", "scenario.duration_s=0.2", "--no-lcm", "--enable", option, "/dev/full"],

@@ -74,8 +74,8 @@ void Ask(const reed_law_input& in, Numbers& out) noexcept {
   for (const double value : {static_cast<double>(n), static_cast<double>(m), in.period_s, in.time_s,
                              static_cast<double>(in.adapt), static_cast<double>(in.source), in.f_n})
     out.Add(value);
-  for (const double* values : {in.theta, in.theta_dot, in.theta_d, in.theta_d_dot, in.theta_d_ddot, in.v, in.v_dot,
-                               in.s, in.f_known, in.J_m, in.Jt_F_d})
+  for (const double* values : {in.theta, in.theta_dot, in.theta_d, in.theta_d_dot, in.theta_d_ddot, in.v,
+                               in.v_dot, in.s, in.f_known, in.J_m, in.Jt_F_d})
     out.Add(values, n);
   out.Add(in.p_0, m);
   out.Add(in.Y, n * m);
@@ -95,9 +95,11 @@ bool Answer(State& state, int joints, double* torque) noexcept {
 
 const char* StartServer(State& state, const char* file) {
   const char *python = std::getenv("REED_LAW_PYTHON"), *server = std::getenv("REED_LAW_SERVER");
-  if (python == nullptr || server == nullptr) return "a Python law is started by tools/reed run --law FILE.py";
+  if (python == nullptr || server == nullptr)
+    return "a Python law is started by tools/reed run --law FILE.py";
   std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return "no socket for the Python process";
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    return "no socket for the Python process";
   state.child = fork();
   if (state.child < 0) return "no process for Python";
   if (state.child == 0) {
@@ -118,10 +120,12 @@ size_t reed_law_state_size(const reed_law_setup* /*setup*/) { return sizeof(Stat
 
 const char* reed_law_start(const reed_law_setup* setup, void* memory) {
   State& state = *static_cast<State*>(memory);
-  if (setup->joints > kMostJoints || setup->parameters > kMostParameters) return "too many joints or parameters for a Python law";
+  if (setup->joints > kMostJoints || setup->parameters > kMostParameters)
+    return "too many joints or parameters for a Python law";
   if (const char* refused = StartServer(state, setup->argument)) return refused;
   Numbers question;  // the arm, for the first call: the server tries the law on it
-  for (const double value : {static_cast<double>(setup->joints), static_cast<double>(setup->parameters), setup->period_s})
+  for (const double value :
+       {static_cast<double>(setup->joints), static_cast<double>(setup->parameters), setup->period_s})
     question.Add(value);
   for (const double* values : {setup->K_d, setup->Lambda, setup->J_m}) question.Add(values, setup->joints);
   question.Add(setup->p_0, setup->parameters);
@@ -141,7 +145,8 @@ void reed_law_step(const reed_law_input* in, void* memory, reed_law_output* out)
   Numbers question;
   Ask(*in, question);
   if (question.Send(state.pipe) && Answer(state, in->joints, out->torque)) return;
-  for (int i = 0; i < in->joints; ++i) out->torque[i] = std::numeric_limits<double>::quiet_NaN();  // trips: not finite
+  for (int i = 0; i < in->joints; ++i)
+    out->torque[i] = std::numeric_limits<double>::quiet_NaN();  // trips: not finite
   static bool said = false;
   if (!said) std::fprintf(stderr, "reed_firmware: --law: %s\n", state.text);
   said = true;
