@@ -120,14 +120,14 @@ def test_every_telemetry_channel_and_message_is_in_their_document():
 
 
 def test_the_readme_names_everything_that_is_installed():
-    table = text_of("README.md").partition("What it stands on")[2]
+    table = text_of("README.md").partition("## Dependencies")[2]
     packages = [line.split()[1] for line in text_of("tools/apt-packages.txt").splitlines() if line and line[0] != "#"]
     for package in packages:
         assert PACKAGE_NAMES[package] in table, package
 
 
 def test_the_readme_names_everything_that_python_imports():
-    table = text_of("README.md").partition("What it stands on")[2]
+    table = text_of("README.md").partition("## Dependencies")[2]
     nodes = [node for name in tracked("*.py") for node in ast.walk(ast.parse(text_of(name)))]
     modules = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     modules |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level}
