@@ -1,5 +1,5 @@
-// What the loop knows of time: a reading, and a sleep up to an absolute time. CLOCK_MONOTONIC in ns. RT:
-// safe.
+// What the loop knows of time: a reading, and a sleep up to an absolute time. CLOCK_MONOTONIC in ns.
+// RT: safe.
 #pragma once
 
 #include <time.h>

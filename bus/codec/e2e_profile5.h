@@ -1,7 +1,7 @@
 // AUTOSAR E2E profile 5: proves that a frame is whole, is the one it claims to be, and follows its
 // predecessor. CRC-16 CCITT-FALSE, low byte first, in bytes 0-1; 8-bit counter in byte 2. The CRC covers byte
-// 2 to the end and then the 16-bit Data ID (low, high), which is known to both sides and never sent. RT:
-// safe.
+// 2 to the end and then the 16-bit Data ID (low, high), which is known to both sides and never sent.
+// RT: safe.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The arm as a chain of joints and bending members, base to tip, with the mass that each carries. RT: set-up
-// only.
+// The arm as a chain of joints and bending members, base to tip, with the mass that each carries.
+// RT: set-up only.
 #pragma once
 
 #include <string>

@@ -1,13 +1,11 @@
-// The normal force as the strategy knows it: from the wrist sensor or from the momentum observer, without a
-// jump where one takes over from the other. RT: safe.
+// The normal force: from the wrist sensor or from the momentum observer, without a step at a change of source.
+// RT: safe.
 //
-//   sensor    f = nᵀ(F − zero); the zero is the mean of 64 readings at rest, retaken when frames return to an
-//             arm that touches nothing until the sensor is trusted again
-//   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
-//   motion,
-//             slowly while the wall is sought, and stands still in contact without a sensor, also in one that is
-//             made before its time
-//   at a change of source the difference of both is carried over and forgotten with kForget_s
+//   sensor    f = nᵀ(F − zero). The zero is the mean of 64 readings at rest. It is taken again when frames return
+//             and the arm touches nothing until the sensor is used again.
+//   observer  f̂ = nᵀF̂ (50) − tare. The tare follows nᵀF̂ − f while the sensor is used, and nᵀF̂ in free motion:
+//             slowly while the wall is sought. It is held in contact without a sensor, also before force.start_s.
+//   At a change of source the difference of both is added and decays with kForget_s.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // (27), (28): f = M v̇ + C(θ, θ̇) v + G + F_v v = Y(θ, θ̇, v, v̇) p + f_known, linear in the structural
-// parameters p. C is the Christoffel matrix (Ṁ - 2C is skew); the reflected rotor inertia is not in f. O(N (N
-// + P)), one forward and one backward pass, C is never built. RT: safe.
+// parameters p. C is the Christoffel matrix (Ṁ - 2C is skew). The reflected rotor inertia is not in f.
+// O(N (N + P)), one forward and one backward pass. C is never built. RT: safe.
 #pragma once
 
 #include "reed/core/model/newton_euler.h"
