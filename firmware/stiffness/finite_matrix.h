@@ -19,7 +19,7 @@ namespace reed::model {
 
 class FiniteMatrix {
  public:
-  /// What a solution is worth: below full rank something can move freely and the answer is the least-norm
+  /// Rank of a solution: below full rank something can move freely and the answer is the least-norm
   /// one.
   struct Solution {
     Eigen::VectorXd q;

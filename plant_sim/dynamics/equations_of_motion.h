@@ -4,7 +4,7 @@
 //
 // The tree structure of M is used and M is never built: each element passes to its carrier the 6x6 inertia
 // and the wrench that are left once its own coordinates are eliminated, so one solution costs O(elements). A
-// linearly implicit integrator needs more than x'': it asks for the rate k of
+// linearly implicit integrator needs more than x'': it needs the rate k of
 //   (M + c_d D + c_k K) k = F(x, x') + D y_d - K y_k
 // with K = ∂²E_p/∂x² of springs, beams and contact, D = -∂F/∂x' of damping, friction and contact.
 // c_d = c_k = 0 gives x'' itself. RT: safe after construction.

@@ -23,7 +23,7 @@ struct ForceState {
 };
 
 // clang-format off
-/// What the force error asks for as a normal speed, before the filter. m/s.
+/// Normal speed demanded by the force error, before the filter. m/s.
 inline double NormalSpeed(const ForceGains& g, double e_f, double e_f_integral) noexcept {
   return g.k_p * e_f + g.k_i * e_f_integral;                                               // (30)
 }

@@ -3,7 +3,7 @@
 //   f_c = κ̂ ∘ sat(v / v_s)                        (48)     N·m, smooth around rest; v: auxiliary signal (24)
 //   κ̂' = Γ_c sat(v / v_s) ∘ s                     (49)     gradient as (34); ½ κ̃ᵀΓ_c⁻¹κ̃ joins V (42)
 //
-// With it the friction terms cancel in (44).
+// Then the friction terms cancel in (44).
 //
 // v is the reference speed and not the measured one: no noise, and no limit cycle at rest. The paper drops
 // friction between (21) and (26). (48), (49) are Reed's.  RT: safe.

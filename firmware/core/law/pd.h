@@ -1,4 +1,4 @@
-// PD with no model behind it: what the gains of (31) do alone.
+// PD without a model: the gains of (31) alone.
 //
 //   U = K_d s,  s = (θ̇_d − θ̇) + Λ (θ_d − θ)      (31) without f̂ and F_d       N·m
 //
