@@ -22,7 +22,7 @@ def headline(moment: Moment, silent_s: float) -> str:
     if finished or (silent_s > SILENCE_s and moment.mode == OFF):
         return "the run has ended; waiting for the next one"
     if silent_s > SILENCE_s:
-        return f"nothing heard for {silent_s:.0f} s: the run was cut short or stands still"
+        return f"nothing heard for {silent_s:.0f} s: the run ended early or is paused"
     return f"running, {MODES[moment.mode]}"
 
 
