@@ -3,10 +3,11 @@
 FIRST_TRIP, FIRST_LIMIT = 32, 96  # codes between them stop the arm
 NAMES = {
     0: "none", 1: "mode_change", 2: "force_source_change", 3: "contact", 4: "drive_state", 5: "phase_budget", 6: "cycles_missed", 7: "collision",
+    8: "force_zero", 9: "stretch_held",
     32: "joint_position", 33: "joint_speed", 34: "contact_force", 35: "not_finite", 36: "stale_measurement", 37: "drive_fault",
     38: "foreign_controller", 39: "missed_cycles", 40: "bus_lost", 41: "operator", 42: "unexpected_joint", 43: "stale_wrench",
-    44: "phase_budget_in_row",
-    96: "torque", 97: "torque_rate", 98: "normal_speed", 99: "held_measurement", 100: "ramp_down",
+    44: "phase_budget_in_row", 45: "wrench_range", 46: "stretched",
+    96: "torque", 97: "torque_rate", 98: "normal_speed", 99: "held_measurement", 100: "ramp_down", 101: "stretch",
     200: "controller_present", 201: "controller_restarted", 202: "drive_state", 203: "brakes_released", 204: "brakes_closed",
     205: "enable_refused", 206: "contact_made", 207: "contact_lost", 208: "diverged", 209: "too_slow", 210: "wrench_lost",
     211: "wrench_back", 212: "host_pause", 213: "another_arm",
