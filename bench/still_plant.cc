@@ -1,5 +1,5 @@
 // The plant program without its physics: the same endpoint, drives, sensors, frames and record, under them an
-// arm that stands where it started. What a bus cycle costs can be measured with it alone. Clock realtime.
+// arm that stays where it started. It measures the cost of a bus cycle alone. Clock realtime.
 // reed_still_plant GROUP PORT CORE
 #include <cstdio>
 #include <cstdlib>

@@ -24,13 +24,13 @@ Options ParseOptions(int argc, char** argv) {
       ->check(CLI::IsMember({"realtime", "wall", "lockstep"}))
       ->capture_default_str();
   app.add_flag("--enable", options.control.enable,
-               "open the brakes once every joint is measured; without it the arm is only watched");
+               "open the brakes once every joint is measured; without it the arm is only measured");
   app.add_option("--log", options.control.log, "LCM event log that gets every message");
   app.add_option("--candump", options.control.candump, "CAN log in candump -L format");
   app.add_option("--law", options.control.law,
                  "a law from outside: a shared library with the functions of reed/law.h, LIB.so[:ARGUMENT]");
   app.add_flag("--seccomp", options.control.seccomp,
-               "prove it: any system call of the loop beyond its named handful ends the program");
+               "any system call of the loop beyond the named few ends the program");
   app.add_flag("--host-pause", options.control.host_pause,
                "bench only: cycles missed while the host paused do not stop the arm; refused where real "
                "drives may be");

@@ -1,5 +1,5 @@
-// What the loop knows of time: a reading, and a sleep up to an absolute time. CLOCK_MONOTONIC in ns. RT:
-// safe.
+// The loop's clock: a reading, and a sleep up to an absolute time. CLOCK_MONOTONIC in ns.
+// RT: safe.
 #pragma once
 
 #include <time.h>
@@ -33,7 +33,7 @@ class MonotonicClock {
   std::int64_t NowNs() const noexcept { return rt::NowNs(); }
 
   /// Absolute, so that being interrupted or preempted on the way in does not lengthen the sleep. A signal
-  /// does not end it: who wants to stop the loop sets a flag, and the loop sees it one period later at most.
+  /// does not end it: to stop the loop, set a flag, and the loop sees it one period later at most.
   void SleepUntil(std::int64_t deadline_ns) const noexcept {
     const timespec deadline{deadline_ns / kNsPerSecond, deadline_ns % kNsPerSecond};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {

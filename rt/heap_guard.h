@@ -1,4 +1,4 @@
-// Counts what the calling thread asks of the heap, in release builds too: linking the object library
+// Counts the heap calls of the calling thread, in release builds too: linking the object library
 // reed_heap_guard replaces malloc, calloc, realloc, free and the aligned family by functions that count and
 // pass on to glibc. Other threads are not counted, and pay one thread-local test per call. RT: safe.
 #pragma once
@@ -18,7 +18,7 @@ class HeapCount {
   /// Calls of the malloc family on this thread since construction; free(nullptr) counts too.
   std::int64_t calls() const noexcept;
 
-  /// Called at every counted call; nullptr: nobody. For proofs that name the caller.
+  /// Called at every counted call; nullptr: none. For proofs that name the caller.
   static void SetWitness(void (*witness)() noexcept) noexcept;
 
   /// False in a sanitizer's build, which has its own allocator: calls() is 0 and proves nothing there.

@@ -7,7 +7,7 @@
 
 namespace reed::rt {
 
-/// How long a writer may stand still before it is given up: longer than a busy disk does, and shorter than a person waits
+/// How long a writer may make no progress before it is given up: longer than a busy disk does, and shorter than a person waits
 /// after Ctrl-C.
 inline constexpr std::int64_t kDiskPatience_ns = 3'000'000'000;
 

@@ -15,7 +15,7 @@ inline constexpr std::size_t kPhases = 3;
 enum class PhaseAction : std::uint8_t {
   kCount,    // nothing: the breach is counted and reported
   kHold,     // repeats the last safe command
-  kDegrade,  // leaves out what can wait: adaptation stands still, nodal displacement keeps its last value
+  kDegrade,  // no adaptation, the static deflection keeps its last value
   kFault,    // nothing, but after max_in_row such cycles in a row the arm stops
 };
 

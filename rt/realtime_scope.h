@@ -1,4 +1,4 @@
-// What the loop's thread asks of the machine, for as long as the object lives: no page faults, priority, its
+// What the loop's thread requests of the machine, for the lifetime of the object: no page faults, priority, its
 // own core. Whatever is refused is in the report with the reason and the fix, never ignored. RT: set-up only.
 #pragma once
 
@@ -29,7 +29,7 @@ struct RealtimeReport {
   Grant memory;                     // mlockall
   Grant fifo;                       // SCHED_FIFO
   Grant affinity;                   // pinned to the core
-  std::string scheduler = "other";  // "fifo:80" or "other", as run_t wants it
+  std::string scheduler = "other";  // "fifo:80" or "other", as in run_t
   int cpu = -1;                     // the core it is pinned to, -1: none
 
   /// One line per refused request: what, why, fix.

@@ -9,8 +9,7 @@
 namespace reed::rt {
 namespace {
 
-/// Lifts the soft limit as far as the hard one allows: what the machine would grant should not fail for want
-/// of asking.
+/// Raises the soft limit to the hard one, so that the machine grants all that it may.
 void RaiseSoftLimit(__rlimit_resource resource) noexcept {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return;

@@ -1,4 +1,4 @@
-// Signals as questions that a loop can ask. RT: set-up only; the flag itself is safe to read.
+// Signals as flags that a loop can read. RT: set-up only; the flag itself is safe to read.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Time that only moves when it is told to: tests of everything that is about time, without waiting. RT: safe.
+// Time that moves only by Advance or a sleep: tests of timing without waiting. RT: safe.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// LCM over the network for whoever is watching: best effort, and never in the way of the log. For an ordinary
+// LCM over the network for viewers: best effort, never delays the log. For an ordinary
 // thread.
 #pragma once
 

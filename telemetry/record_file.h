@@ -24,7 +24,7 @@ class RecordFile {
   /// True while records may be written; after an error the caller only counts them.
   bool good() const noexcept { return file_ != nullptr && report_.problem.empty(); }
 
-  /// To be told of every record (of at most one datagram): whether stdio took it, or it was not even tried.
+  /// To be called for every record (of at most one datagram): whether stdio took it, or it was not tried.
   void Count(bool taken);
   /// Hands the buffer to the kernel.
   void Flush();

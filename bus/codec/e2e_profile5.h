@@ -1,7 +1,7 @@
 // AUTOSAR E2E profile 5: proves that a frame is whole, is the one it claims to be, and follows its
 // predecessor. CRC-16 CCITT-FALSE, low byte first, in bytes 0-1; 8-bit counter in byte 2. The CRC covers byte
-// 2 to the end and then the 16-bit Data ID (low, high), which is known to both sides and never sent. RT:
-// safe.
+// 2 to the end and then the 16-bit Data ID (low, high), which is known to both sides and never sent.
+// RT: safe.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ enum class E2eState : std::uint8_t {
   kOkSomeLost,     // counter jumped, at most kMaxDeltaCounter: usable, some frames are missing
   kRepeated,       // counter did not move: the same frame again or a stuck sender
   kWrongSequence,  // counter jumped further: not usable, the next frame continues from here
-  kCrcError,       // damaged, or somebody else's frame: nothing in it may be believed, not even its counter
+  kCrcError,       // damaged, or another sender's frame: nothing in it is valid, not even its counter
 };
 
-/// A sender that stalled for 20 cycles is still followed without losing a frame.
+/// A sender that paused for 20 cycles is still followed without losing a frame.
 inline constexpr std::uint8_t kMaxDeltaCounter = 20;
 inline constexpr std::size_t kE2eHeaderSize = 3;
 
@@ -42,7 +42,7 @@ struct E2eCheck {
 
 class E2eReceiver {
  public:
-  /// Judges one frame. Frames shorter than kE2eHeaderSize are kCrcError.
+  /// Checks one frame. Frames shorter than kE2eHeaderSize are kCrcError.
   E2eCheck Check(std::span<const std::uint8_t> frame, std::uint16_t data_id) noexcept;
 
  private:

@@ -5,7 +5,7 @@
 // Numbers that do not fit. Finite values and infinities outside the DBC's range are sent as the nearest
 // bound. A NaN torque command is sent as 0, because a drive that gets no torque is safer than one that gets
 // none of the cycle's commands; a NaN measurement is sent as NaN and makes the receiver refuse the frame,
-// because an invented measurement would be believed. Both are counted. The receiver refuses a whole frame if
+// because a receiver would use an invented measurement. Both are counted. The receiver refuses a whole frame if
 // one signal is NaN or out of range.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace reed::bus {
 
-/// What the controller asks of the drives. Drives change state only on a change of request, in this order;
+/// What the controller requests of the drives. Drives change state only on a change of request, in this order;
 /// a stream of torques alone never starts an arm.
 enum class DriveRequest : std::uint8_t { kOff = 0, kReady = 1, kEnable = 2 };
 enum class DriveState : std::uint8_t { kOff = 0, kReady = 1, kEnabled = 2, kBraked = 3, kFault = 4 };
@@ -97,7 +97,7 @@ struct Decoded {
   CommandMessage command;
 };
 
-/// Whether somebody really sent it as what it says it is, usable or not. A damaged frame proves nothing, not even who sent it.
+/// Whether it is genuine, usable or not. A damaged frame proves nothing, not even its sender.
 constexpr bool IsGenuine(const Decoded& decoded) noexcept {
   return decoded.reject != Reject::kUnknownId && decoded.reject != Reject::kLength &&
          decoded.reject != Reject::kCrc;

@@ -1,4 +1,4 @@
-// Who is on the bus already, before one says anything oneself. RT: set-up only.
+// Who sends on the bus already, before this program sends. RT: set-up only.
 #pragma once
 
 #include <array>

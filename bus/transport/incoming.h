@@ -1,4 +1,4 @@
-// The verdict on one received datagram, before anybody looks at the frame's content. Plain data. RT: safe.
+// What one received datagram is, before the frame's content is read. Plain data. RT: safe.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ enum class Incoming : std::uint8_t {
   kForeignId,  // an identifier that is not in the DBC: dropped and counted, as a CAN controller's filter would
   kMalformed,   // no CAN FD data frame of the format
   kErrorFrame,  // a CAN controller reported an error
-  kBusOff,      // a CAN controller gave up: the bus is lost, and an arm must not wake up if it comes back
+  kBusOff,      // a CAN controller is bus-off: the bus is lost, and the arm must not move if it returns
 };
 
 }  // namespace reed::bus

@@ -17,7 +17,7 @@ void SetOption(int fd, int level, int name, const T& value, const char* what) {
   }
 }
 
-/// A queue that outlives a long stall of the reader, and a count of what did not fit even so. The kernel's
+/// A queue for a long pause of the reader, and a count of what did not fit even so. The kernel's
 /// limit applies to whoever lacks CAP_NET_ADMIN: rmem_max, usually 208 KiB, about 300 frames.
 inline void SetReceiveQueue(int fd) {
   constexpr int kBytes = 4 << 20;

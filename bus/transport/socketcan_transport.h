@@ -1,6 +1,6 @@
 // CAN FD on Linux SocketCAN (vcan0, can0): raw socket, kernel filters for the identifiers of the DBC, error
 // frames counted, own frames not received. RT: safe after construction; the constructor throws
-// std::runtime_error with one line that says what is wrong and how to mend it.
+// std::runtime_error with one line that says what is wrong, with the fix.
 #pragma once
 
 #include <string>

@@ -57,7 +57,7 @@ ip_mreqn OnLoopback(in_addr group) {
 }
 
 /// What leaves by `own_port` never comes back to `fd`: the kernel drops it before it is queued, so that a
-/// program is not woken by what it said itself. A kernel without such filters queues it, and Read() drops it.
+/// program is not woken by its own frames. A kernel without such filters queues it, and Read() drops it.
 bool DropOwn(int fd, in_port_t own_port) {
   constexpr std::uint32_t kSourcePort = 0, kNothing = 0,
                           kEverything = 0xFFFFFFFF;  // offset in the UDP header

@@ -42,7 +42,7 @@ UringReceiver::~UringReceiver() {
 
 bool UringReceiver::Open(int fd) {
   io_uring_params parameters{};
-  // Work is done where this thread enters the kernel, no interrupt of the compute phase. Not DEFER_TASKRUN:
+  // Work is done when this thread enters the kernel and does not interrupt the compute phase. Not DEFER_TASKRUN:
   // it wakes after as many calls for work as completions are wanted, and one call here may stand for many
   // datagrams.
   parameters.flags =
@@ -171,7 +171,7 @@ int UringReceiver::Harvest(int limit) noexcept {
   return count_;
 }
 
-/// False: an error that the caller must hear of first.
+/// False: an error that the caller must see first.
 bool UringReceiver::Take(const io_uring_cqe& event) noexcept {
   if ((event.flags & IORING_CQE_F_MORE) == 0) Arm(fd_);  // out of buffers, or an error: armed anew
   if (event.res < 0) {

@@ -26,13 +26,13 @@ struct PlantConfig {
   std::vector<double> p_true;  // true structural parameters; empty: the arm file's
 };
 
-/// [drives] what stands between a commanded and an applied torque.
+/// [drives] from a commanded to an applied torque.
 struct DriveConfig {
   int torque_bits = 16;             // resolution over plus/minus the arm's torque limit
   int command_timeout_cycles = 20;  // periods without a valid command before the brakes close
 };
 
-/// [sensors] what stands between the truth and a frame.
+/// [sensors] from the truth to a frame.
 struct SensorConfig {
   bool wrench = true;                 // a wrist force sensor is fitted
   int encoder_bits = 20;              // per turn

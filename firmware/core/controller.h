@@ -1,5 +1,5 @@
-// The controller: a measurement in, a command and a decision out, once per period. Knows no file, no frame, no clock
-// and no truth. Firmware, bench, inspection, the Cortex-M7 and programs of others call this one object.
+// The controller: a measurement in, a command and a decision out, once per period. It has no access to files, frames,
+// clocks or the truth. Firmware, bench, inspection, the Cortex-M7 and other programs call this one object.
 // RT: safe, except the constructor.
 #pragma once
 
@@ -40,17 +40,17 @@ class Controller {
   const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
     events_.Clear();
     verdict_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
-                                 ContactForce(measured));              // estimate what it is worth
+                                 ContactForce(measured));              // estimate
     Decide(measured, state);                                           // decide
     const strategy::Decision<N>& decision = Control(measured, state);  // control
-    command_.torque = Protect(decision, measured);                     // protect: the last word
+    command_.torque = Protect(decision, measured);                     // protect: the last gate
     command_.request = supervisor_.Request();
     NoteDecision(decision);
     was_active_ = was_active_ || active();
     return command_;
   }
 
-  /// Nothing more to do: the run or the fault has been over for long enough that the drives and the record know.
+  /// Nothing more to do: the run or the fault ended long enough ago for the drives and the record.
   bool finished(bool stop_wanted) const noexcept {
     const bool fault = supervisor_.mode() == mode::Mode::kFault;
     if (fault) return supervisor_.cycles_in_mode() >= kCyclesAfterFault;
@@ -84,8 +84,8 @@ class Controller {
     seen.drives_enabled = measured.AllDrives(DriveState::kEnabled);
     seen.drives_braked = measured.AnyDrive(DriveState::kBraked);
     seen.tared = strategy_.tared() || measured.wrench_age == Measurement<N>::kNever;
-    // The end of a run leads through ready to off, as the operator's stop does: drives that are left in ready brake
-    // for want of commands, which looks like a fault.
+    // The end of a run leads through ready to off, as the operator's stop does: drives that are left in ready get no
+    // commands and brake, which looks like a fault.
     const bool over = active() ? time_s() >= settings_.duration_s : was_active_;
     seen.stop = state.stop_wanted || over;
     seen.trip = verdict_.trip != protect::Reason::kNone;
@@ -106,13 +106,13 @@ class Controller {
 
   model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
     if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
-    const bool sound = verdict_.trip == protect::Reason::kNone;
+    const bool no_trip = verdict_.trip == protect::Reason::kNone;
     model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
-    if (sound && active() && decision.force.lost) {
+    if (no_trip && active() && decision.force.lost) {
       verdict_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), verdict_.limits};
       tau = limits_.Release();
     }
-    if (sound && verdict_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
+    if (no_trip && verdict_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
       mode::Observation seen;
       seen.trip = true;
       Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)));
@@ -134,7 +134,7 @@ class Controller {
     if (decision.force.latched_now) Note(protect::Reason::kContact, -1, decision.f);
   }
 
-  /// A sensor that touches nothing reads nothing but noise; else it has a bias, or it does touch something.
+  /// A sensor that touches nothing reads noise only. Otherwise it has a bias, or it does touch something.
   void NoteForceZero(const Measurement<N>& measured) noexcept {
     const double offset = strategy_.ForceZeroOffset();
     if (measured.wrench_age != Measurement<N>::kNever && offset > settings_.force_noise_N)
@@ -150,7 +150,7 @@ class Controller {
     events_.Add({code, joint, value, supervisor_.mode(), source_});
   }
 
-  static constexpr int kCyclesAfterStop = 5;    // the drives hear that they shall close the brakes
+  static constexpr int kCyclesAfterStop = 5;    // for the drives to receive the request to close the brakes
   static constexpr int kCyclesAfterFault = 50;  // of recording after a fault
 
   const Settings<N, P> settings_;

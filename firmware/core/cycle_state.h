@@ -1,4 +1,4 @@
-// What the loop knows of a cycle and the controller does not: the time it came at, and the operator. RT: safe.
+// What the loop passes to the controller with a measurement: lateness and the operator's requests. RT: safe.
 #pragma once
 
 namespace reed {

@@ -1,4 +1,4 @@
-// What one cycle knows of the arm: every value with its age. Plain data, SI. RT: safe.
+// The measurements of one cycle: every value with its age. Plain data, SI. RT: safe.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The separated strategy (Fig. 7): which law is in charge, and everything it needs, once per cycle.
+// The separated strategy (Fig. 7): which law acts, and everything it needs, once per cycle.
 //
 //   force known    → adaptive force tracking, (30)-(34)
 //   force unknown  → adaptive sliding mode, (36)-(41)
@@ -17,7 +17,7 @@
 
 namespace reed::strategy {
 
-/// kReduced leaves out what can wait a cycle: adaptation and a new static deflection.
+/// kReduced leaves out adaptation and a new static deflection for a cycle.
 enum class Workload : std::uint8_t { kFull, kReduced };
 
 template <int N, int P>
@@ -92,7 +92,7 @@ class Separated {
 
   /// While the arm is still and free: the force sensor's zero, the observer's start, no adaptation.
   void Tare(const Measurement<N>& measured) noexcept {
-    normal_force_.Settle(measured.force, measured.wrench_age <= kUsableWrenchAge);
+    normal_force_.Tare(measured.force, measured.wrench_age <= kUsableWrenchAge);
     force_.Reset();
     deflection_.Reset();
     model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
@@ -100,9 +100,9 @@ class Separated {
     collision_.Reset(disturbance_.r());
   }
   double ForceZeroOffset() const noexcept { return normal_force_.ZeroOffset(); }  // N
-  bool tared() const noexcept { return normal_force_.settled(); }
+  bool tared() const noexcept { return normal_force_.tared(); }
 
-  /// What the wall feels, N, for the limit: the tared sensor; without it the observer, while the arm presses.
+  /// The force on the wall, N, for the limit: the tared sensor; without it the observer, while the arm presses.
   double ContactForce(const Measurement<N>& measured, bool sensed) const noexcept {
     if (sensed) return normal_force_.Felt(measured.force).norm();
     return decision_.source == ForceSource::kObserver ? std::abs(decision_.f) : 0.0;
@@ -115,7 +115,7 @@ class Separated {
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
 
  private:
-  /// A machine that always answers a cycle late still has a sensor: a still arm's reading does not age in that time.
+  /// A wrench that always comes a cycle late is usable here: the reading of an arm at rest is the same a cycle later.
   static constexpr int kUsableWrenchAge = 2;
 
   ForceSource Source(const Measurement<N>& measured, double t_s, bool active) noexcept {
@@ -125,7 +125,7 @@ class Separated {
     return source;
   }
 
-  /// bandwidth_scale: a change of source is no step of the gain.
+  /// bandwidth_scale changes smoothly: a change of source makes no step of the gain.
   void ScaleBandwidth(ForceSource source) noexcept {
     const double scale = source == ForceSource::kObserver ? kObserverScale : 1.0;
     bandwidth_scale_ += T_ / kScaleTime_s * (scale - bandwidth_scale_);
@@ -143,7 +143,7 @@ class Separated {
     return plan_kin_.tip;
   }
 
-  /// v, v̇, s: where the law shall take the arm from here (22)-(25), (30).
+  /// v, v̇, s: the reference of the law (22)-(25), (30).
   void Aim(Decision<N>& d, const Measurement<N>& measured) noexcept {
     d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
     if (d.force.active && law_.force_loop)
@@ -155,7 +155,7 @@ class Separated {
         control::ComputedAcceleration<N>(d.desired, kappa_rate_, gains_.Lambda, d.aux.e, measured.theta_dot);
   }
 
-  /// r where it may be subtracted: free motion. An arm that presses would cancel its own force.
+  /// r where it may be subtracted: free motion. While the arm presses this would cancel the desired force.
   model::Vec<N> Subtracted(const Decision<N>& d) const noexcept {
     const bool free = gains_.subtract_observer && d.source == ForceSource::kUnknown;
     return free ? disturbance_.r() : model::Vec<N>(model::Vec<N>::Zero());
@@ -168,7 +168,7 @@ class Separated {
     return gains_.K_d.cwiseQuotient(M.diagonal() + arm_.rotor_inertia);
   }
 
-  static constexpr double kObserverScale = 0.3;  // of the force loop while r, 1/K_o late, is all it has
+  static constexpr double kObserverScale = 0.3;  // of the force loop while it uses r, which is 1/K_o late
   static constexpr double kScaleTime_s = 0.1;
   static constexpr double kNoWall_N = 1e12;
   static constexpr double kCollisionShare = 0.15;  // of the torque limit

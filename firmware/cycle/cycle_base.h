@@ -1,4 +1,4 @@
-// The loop's view of a cycle, whatever the number of joints. One virtual call per period is the whole price.
+// The loop's view of a cycle, whatever the number of joints. It costs one virtual call per period.
 // RT: safe.
 #pragma once
 

@@ -1,5 +1,5 @@
-// One translation unit per number of joints includes this: the instantiations compile side by side. Set-up
-// only.
+// One translation unit per number of joints includes this: the instantiations compile side by side.
+// RT: set-up only.
 #pragma once
 
 #include <memory>

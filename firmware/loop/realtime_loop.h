@@ -1,5 +1,5 @@
 // The realtime loop, over any clock: the program's is CLOCK_MONOTONIC, that of a bench also knows the host's
-// pauses (rt/host_clock.h), the tests' moves when it is told to. RT: safe.
+// pauses (rt/host_clock.h), the tests' moves by calls. RT: safe.
 #pragma once
 
 #include "reed/firmware/loop/stepper.h"

@@ -6,15 +6,15 @@
 
 namespace reed {
 
-/// Nothing heard for so long, although the controller asks every cycle: the bus is lost.
+/// No frame for so long, although SYNC goes out every cycle: the bus is lost.
 inline constexpr std::int64_t kPatience_ns = 2'000'000'000;
 
-/// One cycle with its snapshot; a full ring costs the snapshot, never the cycle.
+/// One cycle with its snapshot; a full ring drops the snapshot and never delays the cycle.
 class Stepper {
  public:
   Stepper(CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept : cycle_(cycle), ring_(ring) {}
 
-  /// Runs one cycle. The snapshot stays open for what the loop has to say about it, until Close().
+  /// Runs one cycle. The loop may write to its snapshot until Close().
   CycleStatus Step(std::int64_t now_ns, std::int64_t wake_ns, std::int64_t rx_deadline_ns,
                    const CycleState& state, LoopResult& result) noexcept {
     slot_ = ring_.Claim();

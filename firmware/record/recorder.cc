@@ -9,8 +9,8 @@ namespace reed::telemetry {
 namespace {
 
 /// Polling, because waking this thread would cost the loop a system call; the ring holds many times this.
-/// Often where somebody may listen, because a burst overflows the socket of a slow listener; rarely where
-/// nobody can, because on one CPU the wake-ups cost as much as a fifth of the loop.
+/// Often where a viewer may listen, because a burst overflows the socket of a slow listener. Rarely where none
+/// can, because on one CPU the wake-ups cost as much as a fifth of the loop.
 constexpr std::int64_t kPollNs = 2'000'000, kPollUnheardNs = 10'000'000;
 /// Snapshots between two looks at the clock.
 constexpr int kBatch = 64;
@@ -100,7 +100,7 @@ void Recorder::Run() {
 }
 
 bool Recorder::DrainBatch() {
-  // Bounded, so that a producer that never rests (lockstep) does not keep the clock from being read.
+  // Bounded, so that a producer without pauses (lockstep) does not keep the clock from being read.
   for (int i = 0; i < kBatch; ++i) {
     const Snapshot* snapshot = ring_.Front();
     if (snapshot == nullptr) return true;

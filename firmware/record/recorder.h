@@ -1,8 +1,8 @@
 // The ordinary thread at the other end of the loop's ring: turns every snapshot into LCM messages and CAN log
-// lines, writes all of them to files and publishes as much as a watcher can take. Nothing that happens here
-// reaches the loop: a full disk or a dead network is counted, said at the end, and the ring is drained on.
+// lines, writes all of them to files, and publishes as many as a viewer can take. The loop never waits for it: a
+// full disk or a network error is counted and reported at the end, and the ring is still emptied.
 //
-// Life: construct (opens everything), RecordRun, Start, then the real-time scope and the loop; Stop,
+// Order: construct (opens everything), RecordRun, Start, then the real-time scope and the loop; Stop,
 // RecordRun, Close. RT: not for the loop. All calls from one thread.
 #pragma once
 
@@ -69,7 +69,7 @@ class Recorder {
   /// Takes out what is left in the ring and ends the thread. Nobody may push meanwhile. A file that takes nothing for
   /// rt::kDiskPatience_ns ends the process, which cannot end the thread.
   void Stop();
-  /// Closes the files' books; after Stop(). The files themselves are closed by the destructor.
+  /// Completes the files' reports; after Stop(). The files themselves are closed by the destructor.
   RecorderReport Close();
 
  private:

@@ -1,4 +1,4 @@
-// The arm's description -> the constants that the recursions want. Set-up only: throws std::invalid_argument.
+// The arm's description -> the constants of the recursions. Set-up only: throws std::invalid_argument.
 #pragma once
 
 #include <cmath>

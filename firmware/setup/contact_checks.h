@@ -1,4 +1,4 @@
-// What the file alone shows of a press that cannot work. Set-up only; throws std::runtime_error with one line.
+// Checks of the file for a press that cannot work. Set-up only; throws std::runtime_error with one line.
 #pragma once
 
 #include <stdexcept>
@@ -17,7 +17,7 @@ inline std::string Rounded(double value, int digits) {
   return text.substr(0, text.find('.') + 1 + static_cast<std::size_t>(digits));
 }
 
-/// A start behind the wall as it is believed to be: the wall's force would become the sensor's zero.
+/// A start behind the wall of the file: the wall's force would become the sensor's zero.
 template <int N>
 void RefuseStartBehindWall(const PoseOf<N>& pose_of, const Scenario& scenario, const JointPath<N>& path) {
   constexpr double kRounding_m = 1e-6;  // a start at the surface is none

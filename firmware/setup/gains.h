@@ -47,9 +47,9 @@ void Friction(const ArmDescription& description, const ControlConfig& c, const m
     g.kappa_0 = c.coulomb_known * declared;
     g.kappa_max = g.kappa_max.cwiseMax(kDeclared * declared);
   }
-  g.Gamma_c_known = c.Gamma_friction * g.K_d;  // joints that are damped more learn larger torques
+  g.Gamma_c_known = c.Gamma_friction * g.K_d;  // more damping: larger torques to adapt to
   g.Gamma_c_unknown =
-      c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : g.Gamma_c_known;  // two integrators would fight
+      c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : g.Gamma_c_known;  // else two integrators add up
   g.friction_speed = c.friction_speed_radps;
 }
 

@@ -1,7 +1,7 @@
 // Everything about one cycle that leaves the loop, as plain bytes: filled by the loop in a ring's slot,
 // turned into messages by an ordinary thread. Meaning, unit, frame and sign of every field: the .lcm file
-// named at each struct. Fields beyond dof, num_parameters, num_events and num_frames are never read. RT:
-// safe.
+// named at each struct. Fields beyond dof, num_parameters, num_events and num_frames are never read.
+// RT: safe.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What is checked on the ground, before anything moves. RT: set-up only.
+// Start-up checks, before anything moves. RT: set-up only.
 #pragma once
 
 #include <stdexcept>

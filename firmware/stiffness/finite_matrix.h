@@ -1,5 +1,5 @@
-// Finite matrix analysis (4)-(6): nodes, the conditions between them, members, loads; all nodal displacements
-// at once.
+// Direct stiffness method (4)-(6), the paper's finite matrix analysis: nodes, the conditions between them, members,
+// loads. All nodal displacements at once.
 //
 // Each condition of (6) makes a node out of another one, so that the conditions hold by construction and the
 // unknowns are only the coordinates that remain:
@@ -19,7 +19,7 @@ namespace reed::model {
 
 class FiniteMatrix {
  public:
-  /// What a solution is worth: below full rank something can move freely and the answer is the least-norm
+  /// Rank of a solution: below full rank something can move freely and the answer is the least-norm
   /// one.
   struct Solution {
     Eigen::VectorXd q;

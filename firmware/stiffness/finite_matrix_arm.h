@@ -1,4 +1,4 @@
-// The arm as nodes, joints and members of the finite matrix analysis (5), (6). RT: set-up only (allocates).
+// The arm as nodes, joints and members of the direct stiffness method (5), (6). RT: set-up only (allocates).
 #pragma once
 
 #include <vector>

@@ -7,7 +7,7 @@
 
 namespace reed::plant {
 
-/// Below this speed a motor counts as at rest: a hand could hold it, and a brake may open.
+/// Below this speed a motor counts as at rest: a brake may open.
 inline constexpr double kRestSpeed_radps = 0.02;
 
 /// Only the *change* from one request to the next moves a drive up; a stream of equal requests moves nothing.
@@ -26,8 +26,8 @@ inline constexpr std::array kWaysUp{
                     bus::DriveState::kEnabled},
 };
 
-/// The state after one valid command. Down it goes at once, whatever was asked before. Braked ends by asking
-/// for off only, so the way back to torque is off, ready, enable, each asked for anew; fault ends by a
+/// The state after one valid command. A lower request acts at once. Only a request for off ends braked, so the
+/// way back to torque is off, ready, enable, each requested again. Fault ends by a
 /// restart of the drives.
 constexpr bus::DriveState AfterCommand(bus::DriveState state, bus::DriveRequest previous,
                                        bus::DriveRequest request, bool at_rest) noexcept {

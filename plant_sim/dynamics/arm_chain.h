@@ -1,5 +1,5 @@
-// The arm as a chain of joints and bending members, base to tip, with the mass that each carries. RT: set-up
-// only.
+// The arm as a chain of joints and bending members, base to tip, with the mass that each carries.
+// RT: set-up only.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ struct Element {
   bool mount_turns = false, mount_shifts = false;  // whether the mount is more than an identity
 };
 
-/// What stands between the motor torque and the joint.
+/// What is between the motor torque and the joint.
 struct Drivetrain {
   double rotor_inertia = 0.0;  // kg·m², reflected to the joint
   JointSpring spring;

@@ -72,7 +72,7 @@ class ArmPlant::Impl {
     x_dot_.setZero();
     if (!Settle(equations_, Vector3d::Zero(), x_))
       throw std::runtime_error("ArmPlant::Reset: no static equilibrium in this pose");
-    // Structural damping: the ratio asked for at the lowest frequency, proportional to stiffness beyond it.
+    // Structural damping: the given ratio at the lowest frequency, proportional to stiffness beyond it.
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
     UpdateTruth();

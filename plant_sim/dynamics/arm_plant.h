@@ -11,7 +11,7 @@
 
 namespace reed::plant {
 
-/// Everything of the truth that sensors, telemetry and checks ask for, at one instant. SI, base frame.
+/// The true state at one instant, for sensors, telemetry and checks. SI, base frame.
 struct Truth {
   double t_s = 0.0;
   Eigen::VectorXd motor_angle_rad, motor_speed_radps, joint_angle_rad;
@@ -24,7 +24,7 @@ struct Truth {
 };
 
 /// Points of the centre line from base to tool point (centre_line.h), base frame: as they are, and where the same points
-/// would be if nothing bent and the joints stood at the motor angles.
+/// would be if nothing bent and the joints were at the motor angles.
 struct ArmShape {
   std::vector<Eigen::Vector3d> bent, rigid;
 };

@@ -1,6 +1,5 @@
 // Strain energy of one straight element (7)-(11), (15), with what the paper leaves out of its plane:
-//   E_p2 = 1/2 ∫ EI (v''² + w''²) dl + 1/2 EA u(L)²/L + 1/2 GJ φ(L)²/L        printed as E_p3 in the text of
-//   (18)
+//   E_p2 = 1/2 ∫ EI (v''² + w''²) dl + 1/2 EA u(L)²/L + 1/2 GJ φ(L)²/L      (the text of (18) prints E_p3)
 // Bending v, w with dv_axial = -n v' (7) and I = ∫ n² dA (11); axial strain and twist constant along the
 // element. Structural damping: the same form in the rates times β. RT: safe after construction.
 #pragma once

@@ -1,5 +1,4 @@
-// Holding brake of a motor: dry friction with a stiff, short elastic range around the angle where the disc
-// sticks.
+// Holding brake of a motor: dry friction, with a stiff, short elastic range where the disc sticks.
 //   τ_b = -k (θ - θ_0) - d θ',  |k (θ - θ_0)| <= τ_max;  beyond, the disc slides and takes θ_0 with it
 // Sticking does not creep, which speed-dependent friction would. RT: safe.
 #pragma once

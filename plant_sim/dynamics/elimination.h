@@ -22,7 +22,7 @@ class ElementBlock {
   /// weight * K, and the force K * reach.
   void AddElastic(const BeamElasticity& elasticity, double weight, const ElasticVec& reach);
 
-  /// Eliminates e. What is left is what the carrier feels.
+  /// Eliminates e. The rest acts on the carrier.
   void Eliminate(Inertia6& inertia, Wrench& force);
 
   /// [k_e; k_base] for a given rate of the base; after Eliminate.

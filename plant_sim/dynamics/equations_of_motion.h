@@ -1,14 +1,13 @@
 // Lagrange's equations (19)-(21) of the whole chain, solved in one sweep to the base and one to the tip.
 //
-//   M(x) x'' + h(x, x') + ∂E_p/∂x + D x' = Q + J_toolᵀ F_in              (21), x = [θ | q | e of every
-//   member]
+//   M(x) x'' + h(x, x') + ∂E_p/∂x + D x' = Q + J_toolᵀ F_in      (21), x = [θ | q | e of every member]
 //
 // The tree structure of M is used and M is never built: each element passes to its carrier the 6x6 inertia
 // and the wrench that are left once its own coordinates are eliminated, so one solution costs O(elements). A
-// linearly implicit integrator needs more than x'': it asks for the rate k of
+// linearly implicit integrator needs more than x'': it needs the rate k of
 //   (M + c_d D + c_k K) k = F(x, x') + D y_d - K y_k
-// with K = ∂²E_p/∂x² of springs, beams and contact, D = -∂F/∂x' of damping, friction and contact. c_d = c_k =
-// 0 gives x'' itself. RT: safe after construction.
+// with K = ∂²E_p/∂x² of springs, beams and contact, D = -∂F/∂x' of damping, friction and contact.
+// c_d = c_k = 0 gives x'' itself. RT: safe after construction.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
-// Friction at the motor side of a joint, F(θ') of (21): viscous plus Coulomb, the latter smoothed around zero
-// speed.
+// Friction at the motor side of a joint, F(θ') of (21): viscous plus Coulomb, smoothed around zero speed.
 //   F = b θ' + τ_c tanh(θ'/ω_s)
 // It takes power F θ' >= 0 at every speed and stores no energy. RT: safe.
 #pragma once

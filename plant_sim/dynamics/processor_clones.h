@@ -2,7 +2,7 @@
 // by the loader. Not for inline functions and templates.
 #pragma once
 
-// "arch=haswell" would ask for that very processor and leave its successors with the plain copy.
+// "arch=haswell" would need that very processor and leave its successors with the plain copy.
 // A sanitizer's run time is not ready yet when the loader picks one.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)

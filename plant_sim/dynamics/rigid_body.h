@@ -98,7 +98,7 @@ struct Placement {
 /// The same body, written in the axes and about the origin of the parent.
 RigidBody InParent(const Placement& placement, const RigidBody& body);
 
-/// Inertia of the child as its parent feels it through a rigid connection: XᵀIX; and its two halves.
+/// Inertia of the child at its parent through a rigid connection: XᵀIX; and its two halves.
 Inertia6 Turned(const Eigen::Matrix3d& R, const Inertia6& child);
 Inertia6 Shifted(const Eigen::Vector3d& p, const Inertia6& child);
 Inertia6 InParent(const Placement& placement, const Inertia6& child);

@@ -3,7 +3,7 @@
 //   (I - γhA) k2 = f(y + h k1) - 2 k1
 //   y+ = y + h (3/2 k1 + 1/2 k2),      γ = 1 - 1/√2
 // Order 2 with any A, so A holds only what is stiff: springs, structural damping, friction, contact, brakes.
-// L-stable: a mode far above 1/h settles in one step, and none is excited by the step size. Slow modes lose
+// L-stable: a mode far above 1/h decays in one step, and the step size excites none. Slow modes lose
 // 0.004 (ωh)⁴ per step. With κ = k2 + 2 k1 each stage is one symmetric system of the size of x (derivation:
 // docs/flexible_arm.md). RT: safe.
 #pragma once

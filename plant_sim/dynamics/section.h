@@ -1,11 +1,8 @@
 // Cross-section of a bent element: where it is, how it is turned, how both change. Axes of the element's base
 // frame, l along x; bending v along y and w along z, axial displacement u, twist φ.
 //
-//   r = (l + u l/L - 1/2 aᵀSa - 1/2 bᵀSb, v, w)       second-order foreshortening, so load along the beam
-//   stiffens or
-//                                                     softens it (geometric stiffening)
-//   Q = Cayley(c) Rot_x(φ), c = (0, -w', v')          exact rotation; its x axis is the tangent r' to second
-//   order
+//   r = (l + u l/L - 1/2 aᵀSa - 1/2 bᵀSb, v, w)       foreshortening of second order: geometric stiffening
+//   Q = Cayley(c) Rot_x(φ), c = (0, -w', v')          exact rotation, x axis: tangent r' to second order
 // RT: safe after construction.
 #pragma once
 

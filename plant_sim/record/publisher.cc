@@ -72,7 +72,7 @@ void Publisher::Run() {
       flushed_ns = now_ns;
     }
     // Asking for data this often costs less than a wake-up per record would cost the simulation; a listener
-    // wants small bursts, a log alone does not mind large ones.
+    // needs small bursts, a log alone can take large ones.
     if (drained && !last_round)
       std::this_thread::sleep_for(std::chrono::milliseconds(network_.enabled() ? 2 : 10));
   }

@@ -1,4 +1,4 @@
-// What the plant tells about itself, as plain data that crosses from the simulation to the publishing thread.
+// What the plant reports, as plain data that crosses from the simulation to the publishing thread.
 #pragma once
 
 #include <array>

@@ -46,7 +46,7 @@ TEST(SourceSelector, DoesWhatTheScenarioSaysInEveryOtherMode) {
 
 TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewton) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d(0.0, 0.0, 0.4), true);
+  for (int k = 0; k < 64; ++k) force.Tare(Eigen::Vector3d(0.0, 0.0, 0.4), true);
   const Eigen::Vector3d read(0.0, 0.0, 8.4), observed(0.0, 0.0, 11.0);
   double before = 0.0;
   for (int k = 0; k < 1000; ++k) before = force.Step(ForceSource::kKnown, read, observed, true);
@@ -61,14 +61,14 @@ TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewt
 
 TEST(NormalForce, AConstantAndASaturatedReadingAreReadings) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Settle(Eigen::Vector3d::Zero(), true);
+  for (int k = 0; k < 64; ++k) force.Tare(Eigen::Vector3d::Zero(), true);
   for (int k = 0; k < 500; ++k)
     EXPECT_EQ(force.Step(ForceSource::kKnown, 200.0 * kUp, Eigen::Vector3d::Zero(), true), 200.0);
 }
 
 TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
+  for (int k = 0; k < 64; ++k) force.Tare(1.0 * kUp, true);
   for (int k = 1; k < SourceSelector::kReturnCycles; ++k) {
     EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12);
     force.Retare(5.0 * kUp, k, true);
@@ -79,7 +79,7 @@ TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
 TEST(NormalForce, KeepsItsZeroWhenTheArmMeetsTheWallWhileFramesReturn) {
   for (const int contact_at : {2, 40, 70, 99}) {
     NormalForce force(kUp, kContact_N, kT);
-    for (int k = 0; k < 64; ++k) force.Settle(1.0 * kUp, true);
+    for (int k = 0; k < 64; ++k) force.Tare(1.0 * kUp, true);
     for (int k = 1; k < SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k, k < contact_at);
     EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12)
         << contact_at;

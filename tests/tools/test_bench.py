@@ -65,7 +65,7 @@ def test_without_cyclictest_the_loops_own_latency_is_measured_and_the_fix_is_tol
 
 def test_cyclictests_grid_goes_on_at_the_first_point_that_is_not_past():
     due = 1e6 + rates.LOOK_US
-    assert rates.stalls_of([5, 250, 5, 70], 1e6) == [(due + 100, due + 350), (due + 500, due + 570)]
+    assert rates.pauses_of([5, 250, 5, 70], 1e6) == [(due + 100, due + 350), (due + 500, due + 570)]
 
 
 def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_alone():
@@ -73,9 +73,9 @@ def test_a_missed_cycle_is_excused_by_a_stall_between_its_due_time_and_its_end_a
     table = {"utime": now_us + np.array([0.0, 1000.0, 5000.0, 9000.0]), "missed": np.array([0, 2, 3, 3]),
              "wake_ns": np.full(4, 300e3), "cycle_ns": np.full(4, 400e3)}
     far, near = [1e9, 1e9 + 70.0], [now_us + shift + 1200.0, now_us + shift + 1500.0]
-    assert rates.away(table, np.array([far])) == 3
-    assert rates.away(table, np.array([near, far])) == 1
-    assert rates.away(table, np.empty((0, 2))) == 3
+    assert rates.outside_pauses(table, np.array([far])) == 3
+    assert rates.outside_pauses(table, np.array([near, far])) == 1
+    assert rates.outside_pauses(table, np.empty((0, 2))) == 3
     assert rates.by_chance(table, np.array([far])) == 0.0
     assert rates.by_chance(table, np.array([[now_us + shift + 8800.0, now_us + shift + 8900.0]])) == 1.0
 

@@ -23,12 +23,12 @@ COMMANDS = {
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
     "paper": ("paper.command", "the paper's experiments, reproduced on one page"),
-    "budget": ("bench.budget", "the loop's proofs for a law from outside: heap, system calls, exceptions, time"),
+    "budget": ("bench.budget", "checks of a law from outside: heap, system calls, exceptions, time"),
     "bench": ("bench.command", "speed and latency beside what they are compared with"),
     "test": ("testing.command", "all tests, or those that match a filter"),
 }
 
-EXIT_STATUS = """exit status: 0 done and every check held; 1 a check or test failed; 2 wrong usage or configuration;
+EXIT_STATUS = """exit status: 0 done and every check passed; 1 a check or test failed; 2 wrong usage or configuration;
              3 a program died or the bus was lost"""
 
 
@@ -44,7 +44,7 @@ class OneLineParser(argparse.ArgumentParser):
 
 def overview() -> str:
     rows = "\n".join(f"  {name:<9}{text}" for name, (_, text) in COMMANDS.items())
-    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help tells more; --version says which Reed this is."
+    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help has the options; --version prints the version."
 
 
 def main(argv: list[str]) -> int:
@@ -57,7 +57,7 @@ def main(argv: list[str]) -> int:
     except KeyboardInterrupt:
         print("reed: interrupted", file=sys.stderr)
         return 130
-    except OSError as error:  # a disk that is full, a folder without rights: nothing of ours to mend
+    except OSError as error:  # a disk that is full, a folder without rights: no error of the tools
         where = f"{os.fsdecode(error.filename)}: " if isinstance(error.filename, (str, bytes)) else ""
         return complain(where + (error.strerror or str(error)).lower(), RunError.exit_status)
     except Exception as error:  # a mistake of ours: one line that says what and where

@@ -1,9 +1,8 @@
-// Force tracking through v (30): the normal component of the reference is replaced by what the force error
-// asks for.
+// Force tracking through v (30): the force error sets the normal component of the reference.
 //
 //   e_f = f_d − f                                             N, > 0: press harder
-//   v   = v₀ − D J_n v₀ − D z                        (30)     normal tip velocity −z (into the wall for z >
-//   0) ż   = a (k_p e_f + k_i ∫e_f − z)                 (30f)    filter: v̇ needs no derivative of e_f
+//   v   = v₀ − D J_n v₀ − D z                        (30)     normal tip velocity −z, z > 0: into the wall
+//   ż   = a (k_p e_f + k_i ∫e_f − z)                 (30f)    filter: v̇ needs no derivative of e_f
 //
 // On s = 0 against a wall of stiffness k_e the loop is stable iff k_i < a k_p.  RT: safe.
 #pragma once
@@ -24,7 +23,7 @@ struct ForceState {
 };
 
 // clang-format off
-/// What the force error asks for as a normal speed, before the filter. m/s.
+/// Normal speed demanded by the force error, before the filter. m/s.
 inline double NormalSpeed(const ForceGains& g, double e_f, double e_f_integral) noexcept {
   return g.k_p * e_f + g.k_i * e_f_integral;                                               // (30)
 }

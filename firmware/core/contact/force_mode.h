@@ -1,6 +1,6 @@
-// Force mode: seek the wall, latch on the first contact, track the desired force with gains that fit the
-// wall. Before and after the time of the force it is touched with f_d = 0 while the path leads into it. The
-// only place that knows when the normal direction belongs to the force. RT: safe.
+// Force mode: seek the wall, latch on the first contact, track the desired force with gains that fit the wall.
+// Before and after the time of the force the arm touches the wall with f_d = 0 while the path leads into it. Only
+// this file decides when the force loop moves the normal direction. RT: safe.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ struct ForceModeConfig {
   double least_k_p = 0.5e-3, most_k_p = 30e-3;  // m/(s·N), bounds of (52)
 };
 
-/// What the force mode wants of the law this cycle.
+/// What the force mode demands of the law in this cycle.
 struct ForceDemand {
-  bool active = false;       // the normal direction belongs to the force loop
+  bool active = false;       // the force loop moves the normal direction
   bool latched_now = false;  // contact was made in this cycle
   bool speed_limited = false;
   bool held = false;      // near a stretched arm (stretch_guard.h)
@@ -62,14 +62,14 @@ class ForceMode {
     held_ = false;
   }
   bool in_contact() const noexcept { return contact_s_ < kNoContact; }
-  /// A force is wanted now, or a wall is still touched.
+  /// A force is desired now, or the wall is still touched.
   bool Wanted(double t_s) const noexcept { return profile_.Wanted(t_s) || in_contact(); }
   const control::ForceState& state() const noexcept { return state_; }
   double wall_stiffness() const noexcept { return wall_.value(); }
 
-  /// f: normal force as known now, N. pace: share of the bandwidth, below 1 where f comes late. sensed: f is
-  /// measured, not observed.
-  ForceDemand Step(double t_s, double f, const NormalMotion& motion, double pace,
+  /// f: normal force as known now, N. bandwidth_scale: below 1 where f comes late. sensed: f is measured, not
+  /// observed.
+  ForceDemand Step(double t_s, double f, const NormalMotion& motion, double bandwidth_scale,
                    bool sensed = true) noexcept {
     ForceDemand demand;
     const bool pressing = profile_.Wanted(t_s);
@@ -86,11 +86,11 @@ class ForceMode {
     const double off = std::min(config_.speed_limit_mps, motion.allowed.off);
     double wanted = 0.0;  // normal speed into the wall
     if (in_contact()) {
-      if (pace > kPromptPace) wall_.Step(f, motion.x);  // a late f would tell a wrong stiffness
+      if (bandwidth_scale > kPromptScale) wall_.Step(f, motion.x);  // a late f gives a wrong stiffness
       demand.f_d = profile_.At(t_s, contact_s_);
       demand.e_f = demand.f_d - f;
-      wanted = pressing ? control::NormalSpeed(Gains(pace), demand.e_f, state_.e_f_integral)
-                        : Yield(f, pace, motion.x);
+      wanted = pressing ? control::NormalSpeed(Gains(bandwidth_scale), demand.e_f, state_.e_f_integral)
+                        : Yield(f, bandwidth_scale, motion.x);
     } else {
       wanted = config_.approach_speed_mps *
                reference::MinimumJerk(t_s - profile_.start_s, config_.approach_time_s).s;
@@ -102,7 +102,7 @@ class ForceMode {
     demand.held_now = demand.held && !held_;
     demand.lost = motion.allowed.lost;
     held_ = demand.held;
-    // Anti-windup: no more of what the limit already refuses.
+    // Anti-windup: no integration beyond the speed limit.
     if (pressing && in_contact() && !(demand.speed_limited && wanted * demand.e_f > 0.0))
       state_.e_f_integral += T_ * demand.e_f;
     demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
@@ -113,29 +113,30 @@ class ForceMode {
   }
 
   /// (52): k_i keeps its ratio to k_p, so that k_i < a k_p holds on every wall.
-  control::ForceGains Gains(double pace) const noexcept {
+  control::ForceGains Gains(double bandwidth_scale) const noexcept {
     const double k_p = config_.schedule ? std::clamp(config_.bandwidth_radps / wall_.value(),
                                                      config_.least_k_p, config_.most_k_p)
                                         : config_.gains.k_p;
-    return {pace * k_p, pace * pace * config_.gains.k_i * k_p / config_.gains.k_p, config_.gains.a};
+    return {bandwidth_scale * k_p,
+            bandwidth_scale * bandwidth_scale * config_.gains.k_i * k_p / config_.gains.k_p, config_.gains.a};
   }
 
  private:
-  /// Contact without a wanted force: before its time, on a wall that is higher than believed, or after its
-  /// end. Touched with f_d = 0 until the path leads off the wall, not pushed into by position. An observed
-  /// force may be a wrong weight: alone it makes no contact.
+  /// Contact without a desired force: before its start, on a wall that is higher than assumed, or after its end.
+  /// The arm touches the wall with f_d = 0 until the path leads off it. An observed force may be a weight error:
+  /// alone it makes no contact.
   bool Touches(double f, double path_gap, bool sensed) const noexcept {
     if (!(profile_.desired_N > 0.0) || path_gap > kLeaves_m) return false;
     return in_contact() || (sensed && f > config_.threshold_N);
   }
 
-  /// Normal speed at f_d = 0: gives way to what is more than half of a contact. Less may be the sensor's own,
-  /// and following it would drift for ever: there the tip stays where it is.
-  double Yield(double f, double pace, double x) noexcept {
+  /// Normal speed at f_d = 0: yields to a force above half of the contact threshold. Less may be the sensor's error:
+  /// there the tip holds its position, because following an error would drift without end.
+  double Yield(double f, double bandwidth_scale, double x) noexcept {
     state_.e_f_integral *= std::exp(-T_ / kForget_s);
     const double half = 0.5 * config_.threshold_N;
     const double felt = f - std::clamp(f, -half, half);
-    const double z_d = control::NormalSpeed(Gains(pace), -felt, state_.e_f_integral);
+    const double z_d = control::NormalSpeed(Gains(bandwidth_scale), -felt, state_.e_f_integral);
     if (felt == 0.0) return z_d + anchor_.Step(x, z_d);
     anchor_.Reset();
     return z_d;
@@ -144,7 +145,7 @@ class ForceMode {
   static constexpr double kLeaves_m = 0.2e-3;
   static constexpr double kForget_s = 0.1;
   static constexpr double kNoContact = 1e12;
-  static constexpr double kPromptPace = 0.99;
+  static constexpr double kPromptScale = 0.99;
   ForceModeConfig config_;
   reference::ForceProfile profile_;
   WallStiffness wall_;

@@ -1,7 +1,7 @@
-// Where the tip should be along the normal while it touches nothing: the integral of the speed that was asked
-// for. The force loop commands a speed only, so a torque error Δτ lets the tip drift by Δτ / K_d: a coarse
-// encoder or an unknown weight took it away from the wall that it sought. Beyond what it may drift, the speed
-// is corrected. RT: safe.
+// Where the tip should be along the normal while it touches nothing: the integral of the commanded speed. The
+// force loop commands a speed only, so a torque error Δτ lets the tip drift by Δτ / K_d. A coarse encoder or an
+// unknown weight moved it away from the wall that it sought. Beyond an allowed drift the speed is corrected.
+// RT: safe.
 //
 //   x_a' = −z_d
 //   Δz   = Λ_a (x − x_a), less what is within ± kMayDrift_m
@@ -20,7 +20,7 @@ class NormalAnchor {
   /// The tip is where it should be.
   void Reset() noexcept { set_ = false; }
 
-  /// x: normal position of the tip, m; z_d: speed into the wall that is asked for, m/s. Returns what to add.
+  /// x: normal position of the tip, m; z_d: commanded speed into the wall, m/s. Returns what to add.
   double Step(double x, double z_d) noexcept {
     if (!set_) x_a_ = x;
     set_ = true;

@@ -1,13 +1,11 @@
-// The normal force as the strategy knows it: from the wrist sensor or from the momentum observer, without a
-// jump where one takes over from the other. RT: safe.
+// The normal force: from the wrist sensor or from the momentum observer, without a step at a change of source.
+// RT: safe.
 //
-//   sensor    f = nᵀ(F − zero); the zero is the mean of 64 readings at rest, retaken when frames return to an
-//             arm that touches nothing until the sensor is trusted again
-//   observer  f̂ = nᵀF̂ (50) − tare; the tare follows nᵀF̂ − f while the sensor is in charge, nᵀF̂ in free
-//   motion,
-//             slowly while the wall is sought, and stands still in contact without a sensor, also in one that is
-//             made before its time
-//   at a change of source the difference of both is carried over and forgotten with kForget_s
+//   sensor    f = nᵀ(F − zero). The zero is the mean of 64 readings at rest. It is taken again when frames return
+//             and the arm touches nothing until the sensor is used again.
+//   observer  f̂ = nᵀF̂ (50) − tare. The tare follows nᵀF̂ − f while the sensor is used, and nᵀF̂ in free motion:
+//             slowly while the wall is sought. It is held in contact without a sensor, also before force.start_s.
+//   At a change of source the difference of both is added and decays with kForget_s.
 #pragma once
 
 #include <cmath>
@@ -28,20 +26,20 @@ class NormalForce {
         forget_(std::exp(-T / kForget_s)) {}
 
   /// At rest and free. force: as read.
-  void Settle(const Eigen::Vector3d& force, bool fresh) noexcept {
+  void Tare(const Eigen::Vector3d& force, bool fresh) noexcept {
     if (fresh) zero_.Take(force);
     carried_ = 0.0;
     tare_ = 0.0;
   }
-  /// The sensor's force on the arm, all axes; as read while there is no zero. N.
+  /// The sensor's force on the arm, all axes, tared; as read before the tare is complete. N.
   Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
   /// By how much the zero differs from what a sensor that touches nothing reads, N.
   double ZeroOffset() const noexcept { return zero_.Norm(); }
-  bool settled() const noexcept { return zero_.complete(); }
+  bool tared() const noexcept { return zero_.complete(); }
 
   /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the
-  /// source waits for. That wait is longer than the rise of a contact: an arm that met the wall meanwhile
-  /// keeps its old zero, else it would take the wall's force for none.
+  /// source waits for. That wait is longer than the rise of a contact. An arm that met the wall meanwhile keeps
+  /// its old zero, or the wall's force would become the zero.
   void Retare(const Eigen::Vector3d& force, int fresh_in_row, bool free) noexcept {
     if (fresh_in_row == 1) {
       returned_ = {};
@@ -52,7 +50,7 @@ class NormalForce {
     if (stayed_free_ && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
   }
 
-  /// The observed force rose as it does when the tip meets a wall: good enough for a contact before its time.
+  /// The observed force rose as it does when the tip meets a wall: a contact before force.start_s.
   bool met_wall() const noexcept { return met_; }
 
   /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N. x_dot: normal speed of
@@ -89,7 +87,7 @@ class NormalForce {
   bool stayed_free_ = false;
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;
-  bool met_ = false;  // a wall, before its time
+  bool met_ = false;  // a wall, before force.start_s
 };
 
 }  // namespace reed::strategy

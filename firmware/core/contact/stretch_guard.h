@@ -4,9 +4,9 @@
 //   |z| ≤ kShare min_i (θ̇_max,i / |D_i|)        no joint faster than a share of its limit
 //   z → 0 for κ_slow … κ_hold                   in the direction in which κ has grown
 //
-// Near a stretched (or folded) arm D grows without bound: the same tip speed asks for ever faster joints, until
-// the arm snaps through. So it slows down in time and is held, and the way back stays open. Beyond κ_lost, or
-// where D does not exist, force along the normal cannot be controlled at all.
+// Near a stretched (or folded) arm D grows without bound: the same tip speed needs ever faster joints, until the
+// arm passes through the singular pose. So the tip slows down before and is held. It may always move back. Beyond
+// κ_lost, or where D does not exist, the force along the normal cannot be controlled.
 #pragma once
 
 #include <algorithm>

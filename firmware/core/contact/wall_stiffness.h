@@ -1,14 +1,14 @@
-// How stiff the wall is as the motors feel it, and the force gain that fits. RT: safe.
+// Stiffness of the wall and the arm in series, seen from the motors, and the force gain that fits. RT: safe.
 //
 //   k̂_e = √(Σ f'² / Σ x'²)             (51)   N/m
 //   k_p  = ω_f / k̂_e, within bounds     (52)   m/(s·N): the loop k_p k̂_e is as fast on every wall
 //
 // x', f': normal tip position by motor angles and normal force, less what changes slower than kWashout_s.
 //
-// Magnitudes and no correlation: an arm that begins to bounce swings against its force, which would read as a
-// wall without stiffness and raise the gain that makes it bounce.
-// The arm's own 7-12 kN/m are in series with the wall and part of k̂_e: it is what the loop closes over. Sums
-// are forgotten with kMemory_s of motion; readings that moved less than kLeastMotion_m teach nothing.
+// Magnitudes and no correlation: an arm that begins to bounce moves against its force. A correlation would then
+// give no stiffness and raise the gain that makes it bounce.
+// The arm's own 7-12 kN/m are in series with the wall and part of k̂_e: the loop closes over both. Sums decay with
+// kMemory_s of motion. Readings that moved less than kLeastMotion_m do not count.
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 //
 //   |r_i − r̄_i| > share of the joint's torque limit,   r̄: r without what changes faster than kSlow_s
 //
-// The slow part is model error and payload; a blow is not slow. One report per blow: armed again after kQuiet
-// cycles below half the threshold.
+// The slow part is model error and payload. One report per collision: armed again after kQuiet cycles below half
+// the threshold.
 #pragma once
 
 #include <Eigen/Core>

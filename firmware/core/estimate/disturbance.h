@@ -23,13 +23,13 @@ class DisturbanceEstimate {
         viscous_(model::ViscousFriction<N, P>(arm, p_0)),
         rate_share_(-std::expm1(-2.0 * std::numbers::pi * filter_hz * T)) {}
 
-  /// The arm is still and free: r = 0. kin: at the measured state.
+  /// The arm is at rest and free: r = 0. kin: at the measured state.
   void Reset(const model::Kinematics<N>& kin, const model::Vec<N>& theta_dot) noexcept {
     observer_.Reset(Momentum(kin, theta_dot).momentum);
     rate_.setZero();
   }
 
-  /// More than a period has passed since the last update: nobody knows the rate of all of it.
+  /// More than a period has passed since the last update: the rate of all of it is unknown.
   void NoteGap() noexcept { gap_ = true; }
 
   /// kappa: Coulomb friction as estimated, N·m. friction_speed: v_s (48), rad/s.

@@ -1,11 +1,11 @@
-// Generalised-momentum observer: what acts on the arm that the model does not know.
+// Generalised-momentum observer: the torque on the arm that the model does not explain.
 //
 //   p = M̂ θ̇ + J_m θ̇
 //   r = K_o [ p − ∫ (U + Ĉᵀθ̇ − Ĝ − F̂ + r) dt − p(0) ]            (47)
 //
 // r follows Jᵀ F_in + model error with the lag 1/K_o: after a step 63.2 % at 1/K_o; discrete pole e^(−K_o T).
-// Ṁ̂θ̇ − Ĉθ̇ = Ĉᵀθ̇ because Ṁ − 2C is skew. The model is frozen at p₀ so that it does not fight the adaptation.
-// The paper's conclusion asks for an observer, (47) is ours.  RT: safe.
+// Ṁ̂θ̇ − Ĉθ̇ = Ĉᵀθ̇ because Ṁ − 2C is skew. The model is frozen at p₀, apart from the adaptation.
+// The paper's conclusion proposes an observer. (47) is Reed's.  RT: safe.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,8 @@ class MomentumObserver {
     return r_;
   }
 
-  /// Instead of Update() where more than one cycle has passed: nobody knows the rate of all of them, so
-  /// nothing is learnt of them.
+  /// Instead of Update() where more than one cycle has passed: the rate of all of them is unknown, so they change
+  /// nothing.
   void Skip(const Vec<N>& momentum) noexcept { predicted_ = momentum; }
 
   const Vec<N>& r() const noexcept { return r_; }

@@ -1,4 +1,4 @@
-// Everything the laws learn, and one step of it: robust for the robust law, plain for the paper's. RT: safe.
+// All adaptive states of the laws, and one step of them: robust for the robust law, plain for the paper's. RT: safe.
 #pragma once
 
 #include "reed/core/law/friction.h"

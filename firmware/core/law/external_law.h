@@ -1,4 +1,4 @@
-// A law from outside (reed/law.h) as the law bank sees it. RT: as safe as the law.
+// A law from outside (reed/law.h) as the law bank sees it. RT: as safe as that law.
 #pragma once
 
 #include "reed/law.h"

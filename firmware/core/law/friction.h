@@ -1,11 +1,12 @@
-// Coulomb friction, learnt with the structural parameters: one more regressor that is diagonal.
+// Coulomb friction, adapted with the structural parameters: one more regressor, which is diagonal.
 //
 //   f_c = κ̂ ∘ sat(v / v_s)                        (48)     N·m, smooth around rest; v: auxiliary signal (24)
-//   κ̂' = Γ_c sat(v / v_s) ∘ s                     (49)     gradient as (34): adds −κ̃ᵀΓ_c⁻¹κ̃'/2 to (42),
-//   cancels in (44)
+//   κ̂' = Γ_c sat(v / v_s) ∘ s                     (49)     gradient as (34); ½ κ̃ᵀΓ_c⁻¹κ̃ joins V (42)
 //
-// The reference speed and not the measured one: no noise, and no limit cycle at rest. The paper drops
-// friction between (21) and (26); (48), (49) are ours.  RT: safe.
+// Then the friction terms cancel in (44).
+//
+// v is the reference speed and not the measured one: no noise, and no limit cycle at rest. The paper drops
+// friction between (21) and (26). (48), (49) are Reed's.  RT: safe.
 #pragma once
 
 #include "reed/core/law/surface.h"

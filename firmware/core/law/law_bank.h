@@ -1,10 +1,10 @@
 // The laws by name. Each is two torques and two updates, for known and unknown force; chosen once at set-up
-// as plain function pointers, so that a cycle asks nothing and every law takes the same time every cycle.
+// as plain function pointers, so that a cycle does not branch and a law takes the same time every cycle.
 //
 //   separated        robust: (30)-(34) and (36), (40), (41), Coulomb friction (48)
 //   pd, pd_tuned     PD with the paper's gains, with the scenario's gains
 //   computed_torque  model inverse with p₀
-//   fixed_nominal    separated with nothing learnt: p̂ = p₀, same gains, same force loop
+//   fixed_nominal    separated without adaptation: p̂ = p₀, same gains, same force loop
 //   paper_printed    (31)-(34), (36)-(41) as printed, the paper's gains
 //   paper_corrected  the same corrected, the paper's gains, no dead-zone, no leak
 //
@@ -183,7 +183,7 @@ class LawBank {
     return Eigen::Map<const V>(in.external->output->torque);
   }
 
-  // In the order of LawId: torque known / unknown, learn known / unknown, force loop, computed acceleration, static
+  // In the order of LawId: torque known / unknown, update known / unknown, force loop, computed acceleration, static
   // deflection.
   static constexpr std::array<Law<N, P>, 7> kLaws{{
       {RobustKnown, RobustUnknown, LearnRobustKnown, LearnRobustUnknown, true, false, true},

@@ -1,4 +1,4 @@
-// The paper's two laws as it prints them, kept for comparison. They do not hold: docs/control_law.md.
+// The paper's two laws as it prints them, kept for comparison. Their proofs do not hold: docs/control_law.md.
 //
 //   known     p̂ = −η̂ sgn(Yᵀs)   (33)     η̂ = Γ Yᵀs     (34)     so p̂ = −Γ |Yᵀs| ≤ 0: masses below zero
 //             U = f̂ − Jᵀ F_d + K_d s                      (31)
@@ -6,8 +6,8 @@
 //             σ̂₀ = ς ‖s‖²        (40)     σ̂₁ = ς ‖s‖²     (41)     values, not rates
 //             U = f̂ + σ̂₀ s + σ̂₁ sgn(s)                    (36)     no K_d s
 //
-// Two things cannot be run as printed and are read as they must be meant: J F is Jᵀ F, and the "− F_in" of
-// (36) is left out, for it is what is not known. J_m v̇ belongs to f (27).  RT: safe.
+// Two things cannot be run as printed: J F is read as Jᵀ F, and the "− F_in" of (36) is left out, because F_in is
+// not known there. J_m v̇ belongs to f (27).  RT: safe.
 #pragma once
 
 #include "reed/core/law/surface.h"

@@ -1,7 +1,6 @@
-// What turns the laws' ideal updates into ones that survive months: dead-zone, leak, projection, kept apart
-// from the laws.
+// Robust versions of the laws' updates: dead-zone, leak, projection, apart from the laws.
 //
-//   s_dz = s − dz sat(s/dz)                        no learning from noise
+//   s_dz = s − dz sat(s/dz)                        no adaptation to noise
 //   x⁺   = Proj[ x + T (ẋ_law(s_dz) − ℓ (x − x₀)) ]   leak toward a start, then the box
 //
 // Without them the plain gradient drifts in 30 s, and η̂ of (39) explodes because chatter keeps |Yᵀs| > 0.

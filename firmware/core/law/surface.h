@@ -1,5 +1,4 @@
-// Sliding surface (22)-(24): how far the arm is from where it should be, as one velocity-like signal per
-// joint.
+// Sliding surface (22)-(24): the tracking error as one signal per joint, with the unit of a velocity.
 //
 //   e   = θ_d − θ              (22)   rad      θ: motor side
 //   v   = θ̇_d + Λ e            (24)   rad/s

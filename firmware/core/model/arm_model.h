@@ -1,5 +1,5 @@
-// The constants of one arm as the controller believes it to be, in the sizes and the form that the recursions
-// want. N joints, P structural parameters. SI. Plain numbers, no heap, filled once (firmware/setup/arm_model.h).
+// The constants of one arm as the controller assumes it, in the sizes and the form that the recursions use.
+// N joints, P structural parameters. SI. Plain numbers, no heap, filled once (firmware/setup/arm_model.h).
 // RT: reading is safe.
 #pragma once
 

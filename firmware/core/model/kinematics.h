@@ -1,5 +1,5 @@
-// (1)-(3): where every link is, how it moves, and what the tool point makes of it; one forward pass over the
-// joints. Everything in base axes, SI. RT: safe.
+// (1)-(3): pose and velocity of every link and of the tool point, in one forward pass over the joints. Base axes, SI.
+// RT: safe.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,5 @@
-// The polarised Newton-Euler recursion behind (27), (28): accelerations that are bilinear in the two
-// velocities qd and v, so that the torques contain the Christoffel C(q, qd) v exactly and C itself is never
-// built.
+// The mixed-velocity Newton-Euler recursion of (27), (28) (Slotine-Li): accelerations that are bilinear in the two
+// velocities qd and v. The torques contain the Christoffel C(q, qd) v exactly, and C itself is never built.
 //
 // The Newton-Euler torque at zero acceleration and gravity is a quadratic form, C(q, qd) qd = Γ(qd, qd), and
 // the Christoffel C(q, qd) v is its symmetric bilinear form Γ(qd, v). Every product of two velocities below

@@ -1,6 +1,6 @@
 // (27), (28): f = M v̇ + C(θ, θ̇) v + G + F_v v = Y(θ, θ̇, v, v̇) p + f_known, linear in the structural
-// parameters p. C is the Christoffel matrix (Ṁ - 2C is skew); the reflected rotor inertia is not in f. O(N (N
-// + P)), one forward and one backward pass, C is never built. RT: safe.
+// parameters p. C is the Christoffel matrix (Ṁ - 2C is skew). The reflected rotor inertia is not in f.
+// O(N (N + P)), one forward and one backward pass. C is never built. RT: safe.
 #pragma once
 
 #include "reed/core/model/newton_euler.h"
@@ -24,7 +24,7 @@ void ComputeRegressor(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const
   PolarisedFields(kin, v, v_dot, arm.gravity, field);
 
   // Column k of W: wrench that one unit of parameter k on the links i ... N-1 needs, base axes, moment about
-  // the tool point, so that joint i feels J_iᵀ W. Column P: the known part.
+  // the tool point, so that the torque of joint i is J_iᵀ W. Column P: the known part.
   Eigen::Matrix<double, 6, P + 1, Eigen::RowMajor> W =
       Eigen::Matrix<double, 6, P + 1, Eigen::RowMajor>::Zero();
   for (int i = N - 1; i >= 0; --i) {

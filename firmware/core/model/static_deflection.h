@@ -1,5 +1,5 @@
-// (22): θ_d, the desired joint angle after nodal displacement. The plan asks the tool point of a rigid arm to
-// be somewhere; the bent arm gets there when the motors stand at
+// (22): θ_d, the desired joint angle after static deflection compensation (the paper: after nodal displacement).
+// The plan is for a rigid arm. The tool point of the bent arm reaches the planned point at the motor angles
 //   θ_d = θ_plan + ξ - J_v⁺ Δp
 // with ξ_i = τ_i / k_q,i the angle by which the motor leads its joint while the spring carries the static
 // torque τ_i, and Δp the displacement (4) of the tool point by its bending links.  RT: safe.

@@ -1,5 +1,5 @@
-// θ_d after the static deflection of the arm (22): the offset that lets the bent arm's tool point be where the plan
-// has it. The paper calls it nodal displacement. RT: safe.
+// Static deflection compensation (22): the offset in θ_d that puts the bent arm's tool point on the plan. The paper
+// calls it nodal displacement. RT: safe.
 #pragma once
 
 #include "reed/core/model/static_deflection.h"

@@ -1,6 +1,5 @@
-// The nodal displacement (22) as part of the reference: it reaches θ_d, θ̇_d and θ̈_d through a critically
-// damped filter, so that neither the start, nor a new estimate p̂, nor a force that rises makes a step. RT:
-// safe.
+// The static deflection (22) as part of the reference. It reaches θ_d, θ̇_d and θ̈_d through a critically damped
+// filter: neither the start, nor a new estimate p̂, nor a force that rises makes a step. RT: safe.
 //
 //   ẍ = ω² (u − x) − 2 ω ẋ        u: offset wanted now, x: offset applied
 #pragma once

@@ -1,5 +1,5 @@
-// The last gate before the bus: whatever the law wants, no torque leaves here that is too large, too fast,
-// not finite, or meant for a state the arm should not be in. RT: safe.
+// The last gate before the bus: no torque passes that is too large, changes too fast, is not finite, or belongs to a
+// state in which the arm may not be driven. RT: safe.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ class Limits {
  public:
   explicit Limits(const LimitValues<N>& values) noexcept : limit_(values) {}
 
-  /// Is the arm where torque may flow? Position, speed, contact force, age of the oldest joint.
+  /// Is the arm in a state in which torque may flow? Position, speed, contact force, age of the oldest joint.
   Verdict CheckState(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
                      int oldest_joint) const noexcept {
     for (int i = 0; i < N; ++i) {
@@ -71,7 +71,7 @@ class Limits {
       tau = held_ * (left > 0.0 ? left : 0.0);
       verdict.limits |= LimitBit(Reason::kRampDown);
     } else if (oldest_age > limit_.hold_age) {
-      tau = held_;  // the law would act on the past: stay with the last torque that was based on fresh values
+      tau = held_;  // the law has old values: hold the last torque that was based on fresh ones
       verdict.limits |= LimitBit(Reason::kHeldMeasurement);
     }
     const Vec<N> bounded = tau.cwiseMax(-limit_.torque).cwiseMin(limit_.torque);

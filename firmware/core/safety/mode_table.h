@@ -7,7 +7,7 @@
 namespace reed::mode {
 
 /// kOff: brakes closed, not every joint measured or a drive still braked. kReady: every joint measured,
-/// drives ready, brakes closed. kActive: brakes open, the law in charge. kFault: torque zero, brakes closed,
+/// drives ready, brakes closed. kActive: brakes open, the law acts. kFault: torque zero, brakes closed,
 /// until a reset.
 enum class Mode : std::uint8_t { kOff = 0, kReady = 1, kActive = 2, kFault = 3 };
 inline constexpr int kNumModes = 4;

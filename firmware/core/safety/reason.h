@@ -1,5 +1,5 @@
 // Why a torque was changed or taken away, with fixed numbers: telemetry keeps its meaning across versions.
-// From 32 on the arm stops (trips); from 96 on a limit is merely acting, bit (code - 96) of control_t.limits.
+// From 32 on the arm stops (trips). From 96 on a limit acts: bit (code - 96) of control_t.limits.
 // RT: safe.
 #pragma once
 

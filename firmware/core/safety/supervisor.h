@@ -1,4 +1,4 @@
-// Walks the mode table: what happened this cycle, which mode follows, what to ask of the drives. Enabling is
+// Steps the mode table: what happened in this cycle, which mode follows, what to request of the drives. Enabling is
 // explicit: without the operator's wish the arm stays ready with its brakes closed. RT: safe.
 #pragma once
 

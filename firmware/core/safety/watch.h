@@ -1,4 +1,4 @@
-// Is the arm where torque may flow? Everything but the arm's own limits (limits.h): who sends, who answers, which
+// May torque flow? Everything but the arm's own limits (limits.h): who sends, who answers, which
 // drives are enabled, how late the controller is. RT: safe.
 #pragma once
 
@@ -17,8 +17,8 @@ class Watch {
  public:
   explicit Watch(double T) noexcept : T_(T) {}
 
-  /// Trips are looked for only while torque may flow: a still arm behind closed brakes is safe. source: of the last
-  /// cycle. contact_force: what the wall feels as far as it is known, N.
+  /// Trips are checked only while torque may flow: an arm at rest behind closed brakes is safe. source: of the last
+  /// cycle. contact_force: the force on the wall as far as it is known, N.
   Verdict CheckState(const Measurement<N>& measured, const CycleState& state,
                      const mode::Supervisor& supervisor, const Limits<N>& limits,
                      strategy::ForceSource source, double contact_force) noexcept {
@@ -45,7 +45,7 @@ class Watch {
         return {Reason::kDriveFault, i, static_cast<double>(drive), 0};
     }
     const bool wrench_fresh = !limits.TooOld(measured.wrench_age);
-    // A law that tracks the measured force presses blindly without it; one that can do without says so by its source.
+    // A law that tracks the measured force may not press without it. A law that needs none has another source.
     if (active && source == strategy::ForceSource::kKnown && !wrench_fresh)
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
     const Verdict verdict = limits.CheckState(measured.theta, measured.theta_dot, contact_force,
@@ -62,8 +62,7 @@ class Watch {
         state.missed_in_row_exceeded ? 0 : std::min(cycles_since_absence_ + 1, Measurement<N>::kNever);
   }
 
-  /// What was measured last before an absence and never since is old because of the absence, which is the
-  /// reason to give.
+  /// A measurement that is old because the controller missed cycles: the missed cycles are the reason to report.
   Verdict NameAbsence(const Verdict& verdict) const noexcept {
     const bool stale = verdict.trip == Reason::kStaleMeasurement || verdict.trip == Reason::kStaleWrench;
     if (stale && absent_cycles_ > 0 && cycles_since_absence_ <= verdict.value)
@@ -75,7 +74,7 @@ class Watch {
     return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()), 0};
   }
 
-  /// An arm that shall start and of which some joints have never been heard will not start by waiting.
+  /// An arm that shall start, and of which some joints never answered, will not start by waiting.
   void CountIncomplete(const Measurement<N>& measured, const mode::Supervisor& supervisor) noexcept {
     const bool waits = supervisor.mode() == mode::Mode::kOff && supervisor.start_wanted();
     const bool incomplete =
@@ -83,8 +82,8 @@ class Watch {
     cycles_incomplete_ = waits && incomplete ? cycles_incomplete_ + 1 : 0;
   }
 
-  /// Of a drive that is asked to be enabled. The others already have torque while one of them takes its time; one
-  /// that has braked asks for a new start (supervisor.h).
+  /// Of a drive that is requested to enable. The others already have torque while one of them is still enabling. A
+  /// drive that has braked needs a new start (supervisor.h).
   bool DriveStateAllowed(DriveState drive, const mode::Supervisor& supervisor) const noexcept {
     if (supervisor.mode() == mode::Mode::kActive || supervisor.cycles_enabling() * T_ > kTimeToEnable_s)
       return drive == DriveState::kEnabled;
@@ -97,7 +96,7 @@ class Watch {
   double T_;
   int absent_cycles_ = 0;  // of the last absence
   int cycles_since_absence_ = Measurement<N>::kNever;
-  int cycles_incomplete_ = 0;  // off, although an arm is heard
+  int cycles_incomplete_ = 0;  // off, although an arm answers
 };
 
 }  // namespace reed::protect

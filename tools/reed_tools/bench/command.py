@@ -42,7 +42,7 @@ def add_arguments(parser) -> None:
 
 
 def run(arguments) -> int:
-    settle(arguments)
+    set_defaults(arguments)
     folder = folders.fresh(arguments.out, "bench", ("bench.json", "bench.png"), "a benchmark already; remove it or choose another folder")
     machine, all_found = Machine(), Found()
     print(machine.text(), flush=True)
@@ -53,11 +53,11 @@ def run(arguments) -> int:
             all_found.add(measure(arguments, folder))
         except ReedError as error:
             all_found.notes.append(f"not measured, {text}: {error}")
-    tell(all_found, machine, folder)
+    report(all_found, machine, folder)
     return 0
 
 
-def settle(arguments) -> None:
+def set_defaults(arguments) -> None:
     """Defaults that depend on --quick, and what makes no sense."""
     for name, usual, quick in (("processes", 6, 2), ("slice", 10, 2), ("slices", 3, 1)):
         value = getattr(arguments, name)
@@ -70,7 +70,7 @@ def settle(arguments) -> None:
             raise UsageError(f"bench {name}: there is no such measurement{did_you_mean(name, MEASURES)}; there are {', '.join(MEASURES)}")
 
 
-def tell(found: Found, machine: Machine, folder: Path) -> None:
+def report(found: Found, machine: Machine, folder: Path) -> None:
     machine.finish()
     print()
     rows.show(found.rows)

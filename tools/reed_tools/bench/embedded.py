@@ -68,7 +68,7 @@ def prove(folder: Path) -> Proof:
     for scenario, cycles in RUNS.items():
         place = folder / scenario
         place.mkdir(parents=True, exist_ok=True)
-        log = programs.fly(place, PORT, "lockstep", scenario=scenario).log
+        log = programs.run_programs(place, PORT, "lockstep", scenario=scenario).log
         recorded = record(place, scenario, log, cycles)
         elf, program_for_host = place / "controller.elf", place / "controller_host"
         data = compile_one("arm-none-eabi-g++", recorded, place, [*MACHINE, *COMMON, *BARE, "-O0"])

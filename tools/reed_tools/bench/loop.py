@@ -31,9 +31,9 @@ def pinned() -> list[str]:
     return [f"timing.cpu={loop}", f"timing.plant_cpu={plant}"]
 
 
-def timing(flight: programs.Flight) -> dict[str, np.ndarray]:
+def timing(done: programs.BenchRun) -> dict[str, np.ndarray]:
     """The firmware's own record, without the start."""
-    table = load(flight.log).tables["REED_TIMING"]
+    table = load(done.log).tables["REED_TIMING"]
     return {name: column[len(column) // 10:] for name, column in table.items()}
 
 
@@ -54,7 +54,7 @@ def bus_cycle(arguments, folder) -> Found:
 
 
 def bus_time(folder, seconds: int, plant: list[str] | None = None) -> float:
-    table = timing(programs.fly(folder, PORT, "realtime", f"scenario.duration_s={seconds}", *pinned(), plant=plant))
+    table = timing(programs.run_programs(folder, PORT, "realtime", f"scenario.duration_s={seconds}", *pinned(), plant=plant))
     return float(np.median(table["rx_ns"] + table["tx_ns"])) * 1e-3
 
 
@@ -72,17 +72,17 @@ def bare_cycle(seconds: int) -> float:
 
 
 def lockstep(arguments, folder) -> Found:
-    flights = [programs.fly(folder, PORT, "lockstep") for _ in range(arguments.slices)]
-    flight = sorted(flights, key=lambda one: one.wall_s)[len(flights) // 2]
-    us = 1e6 * flight.wall_s / flight.cycles
-    mean = {phase: float(timing(flight)[f"{phase}_ns"].mean()) * 1e-3 for phase in ("rx", "compute", "tx")}
+    runs = [programs.run_programs(folder, PORT, "lockstep") for _ in range(arguments.slices)]
+    done = sorted(runs, key=lambda one: one.wall_s)[len(runs) // 2]
+    us = 1e6 * done.wall_s / done.cycles
+    mean = {phase: float(timing(done)[f"{phase}_ns"].mean()) * 1e-3 for phase in ("rx", "compute", "tx")}
     rest = us - sum(mean.values())
-    found = Found([Row("lockstep press_known, flexible plant", flight.cycles * 1e-3 / flight.wall_s, None, "×", 8.0,
+    found = Found([Row("lockstep press_known, flexible plant", done.cycles * 1e-3 / done.wall_s, None, "×", 8.0,
                        less_is_better=False)])
     found.notes.append(
         f"a lockstep cycle of {us:.1f} µs: the loop waits {mean['rx']:.1f} µs for the plant, computes {mean['compute']:.1f}, sends "
         f"{mean['tx']:.1f}, records and starts up {rest:.1f}; processor time per cycle: plant "
-        f"{1e6 * flight.plant_cpu_s / flight.cycles:.1f} µs, firmware {1e6 * flight.firmware_cpu_s / flight.cycles:.1f} µs")
+        f"{1e6 * done.plant_cpu_s / done.cycles:.1f} µs, firmware {1e6 * done.firmware_cpu_s / done.cycles:.1f} µs")
     found.details = {"lockstep_us": {"cycle": us, **mean, "rest": rest}}
     return found
 
@@ -100,10 +100,10 @@ def system_calls(_arguments, folder) -> Found:
     budget = tomllib.loads((ROOT / "bench" / "budget.toml").read_text())["cycle"]
     found = Found()
     for clock in ("lockstep", "realtime"):
-        flight = programs.fly(folder, PORT, clock, "scenario.duration_s=1", under=(str(BUILD / "bin" / "reed_count_syscalls"),))
-        threads = [json.loads(line)["calls"] for line in flight.text.splitlines() if line.startswith("{")]
+        done = programs.run_programs(folder, PORT, clock, "scenario.duration_s=1", under=(str(BUILD / "bin" / "reed_count_syscalls"),))
+        threads = [json.loads(line)["calls"] for line in done.text.splitlines() if line.startswith("{")]
         loop = max(threads, key=lambda calls: calls.get(CALLS["sendmmsg"], 0))
-        per_cycle = {name: loop.get(number, 0) / flight.cycles for name, number in CALLS.items()}
+        per_cycle = {name: loop.get(number, 0) / done.cycles for name, number in CALLS.items()}
         # To a tenth: listening for another controller before the start makes some too.
         found.rows.append(Row(f"system calls per cycle, {clock}", round(sum(per_cycle.values()), 1), None, "", 4.0))
         found.notes.append(f"system calls per cycle, {clock}: " + ", ".join(f"{name} {count:.2f}" for name, count in per_cycle.items() if count)

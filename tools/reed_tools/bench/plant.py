@@ -64,10 +64,10 @@ def plant(joints: int, elements: int, step_s: float) -> Cost:
     """a5, or a chain of so many equal links where `joints` is not zero."""
     found = probe("bench", joints, 1, elements, step_s, SLICES * SLICE_S)
     side = f"{joints} joints" if joints else f"{elements} element{'s' if elements > 1 else ''} per member"
-    return tell(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"]), "plant")
+    return report(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"]), "plant")
 
 
-def tell(cost: Cost, whose: str) -> Cost:
+def report(cost: Cost, whose: str) -> Cost:
     print(f"  {whose:7}{cost.side:23}{cost.coordinates:4} coordinates{1e6 * cost.step_s:6.0f} us{cost.times_real_time:8.1f} x real time", flush=True)
     return cost
 
@@ -84,7 +84,7 @@ def mujoco_costs(arm: dict) -> list[Cost]:
             for step in STEPS_S:
                 model = chain.model(step, floor)
                 if (spent := processor_time(mujoco, model, at_pose(model), step)) is not None:
-                    costs.append(tell(Cost(integrator, model.nv, step, 1.0 / spent), "MuJoCo"))
+                    costs.append(report(Cost(integrator, model.nv, step, 1.0 / spent), "MuJoCo"))
                     break
     return costs
 

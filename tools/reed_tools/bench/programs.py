@@ -62,7 +62,7 @@ def nanoseconds(name: str, processes: int, *arguments: str) -> dict[str, dict[st
 
 
 @dataclass
-class Flight:
+class BenchRun:
     """Both programs from start to end."""
 
     text: str              # what the firmware printed, with what `under` added
@@ -76,8 +76,8 @@ class Flight:
         return int(self.text.split("done: ")[1].split()[0])
 
 
-def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, ...] = (), plant: list[str] | None = None,
-        scenario: str = "press_known") -> Flight:
+def run_programs(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, ...] = (), plant: list[str] | None = None,
+        scenario: str = "press_known") -> BenchRun:
     """The scenario by hand: no report, no LCM network, the telemetry log of the firmware in `folder`. `under`: what the firmware
     runs under; `plant`: another program at its other end."""
     common = ["--config", scenario, "--bus", f"udp:{BUS_GROUP}:{port}", "--clock", clock, "--no-lcm"]
@@ -102,4 +102,4 @@ def fly(folder: Path, port: int, clock: str, *settings: str, under: tuple[str, .
         raise RunError(f"reed_firmware ended with status {firmware.returncode}: {firmware.stderr.strip()[-WRITES_LAST:]}")
     spent = [after.children_user + after.children_system - before.children_user - before.children_system
              for before, after in ((cpu_before, cpu_after), (cpu_after, plant_times))]
-    return Flight(firmware.stdout, wall_s, spent[0], spent[1], log)
+    return BenchRun(firmware.stdout, wall_s, spent[0], spent[1], log)

@@ -1,4 +1,4 @@
-"""The highest rate: 60 s at 4 kHz in `realtime`, while cyclictest watches the same cores and notes when each was taken away."""
+"""The highest rate: 60 s at 4 kHz in `realtime`, while cyclictest on the same cores records the host pauses."""
 
 import re
 import shutil
@@ -16,10 +16,10 @@ from reed_tools.record.telemetry_log import load
 
 RATE_HZ, SECONDS = 4000, 60
 # cyclictest wakes up above the loop's priority, often enough to see what a cycle of 100 µs in a period of 250 cannot bear.
-LOOK_US, STALL_US, EDGE_US = 100, 60, 100
-# Delays below STALL_US add up and no witness sees them: of 456 missed cycles 7 (1.5 %) were away from every stall.
+LOOK_US, PAUSE_US, EDGE_US = 100, 60, 100
+# Delays below PAUSE_US add up and are not seen: of 456 missed cycles 7 (1.5 %) were outside every pause.
 AIM = 0.05
-# The same times as at 1 kHz: a stall of this machine is as long at any rate.
+# The same times as at 1 kHz: a pause of this machine is as long at any rate.
 AGES = ("limits.hold_age_cycles=8", "limits.stop_age_cycles=40", "drives.command_timeout_cycles=80", "timing.max_missed_in_row=200")
 SAMPLE = re.compile(r"^ *(\d+): *\d+: *(\d+)$", re.M)
 
@@ -29,31 +29,31 @@ def highest_rate(arguments, folder) -> Found:
     if arguments.quick:
         return Found(notes=["the highest rate takes a minute: left out with --quick"])
     if not shutil.which("cyclictest"):
-        missed = int(flown(folder)["missed"][-1])
+        missed = int(timing_of_run(folder)["missed"][-1])
         return Found([Row(f"missed cycles in {SECONDS} s at {RATE_HZ} Hz", missed, None, "")],
                      notes=[wake.HOW_TO_GET.format("the highest rate")])
-    with Witness() as witness:
-        table = flown(folder)
-        stalls = witness.stalls()
-    missed, alone = int(table["missed"][-1]), away(table, stalls)
-    found = Found([Row(f"missed at {RATE_HZ} Hz away from a stall", alone, missed, "cycles", AIM, "all missed cycles")])
-    taken = 1e-6 * float((stalls[:, 1] - stalls[:, 0]).sum()) / (SECONDS * len(set(cores())))
+    with PauseWatch() as watch:
+        table = timing_of_run(folder)
+        pauses = watch.pauses()
+    missed, alone = int(table["missed"][-1]), outside_pauses(table, pauses)
+    found = Found([Row(f"missed at {RATE_HZ} Hz outside host pauses", alone, missed, "cycles", AIM, "all missed cycles")])
+    taken = 1e-6 * float((pauses[:, 1] - pauses[:, 0]).sum()) / (SECONDS * len(set(cores())))
     found.notes.append(f"{SECONDS} s at {RATE_HZ} Hz: {missed} of {SECONDS * RATE_HZ} cycles missed, {missed - alone} of them where "
-                       f"cyclictest stalled too; it saw {len(stalls)} stalls of {STALL_US} µs and more, {100 * taken:.1f} % of the time; "
-                       f"of the punctual cycles {100 * by_chance(table, stalls):.1f} % met one")
-    found.details = {"highest_rate": {"missed": missed, "away": alone, "stalls": len(stalls), "stalled_share": taken}}
+                       f"cyclictest was late too; it saw {len(pauses)} pauses of {PAUSE_US} µs and more, {100 * taken:.1f} % of the time; "
+                       f"of the punctual cycles {100 * by_chance(table, pauses):.1f} % met one")
+    found.details = {"highest_rate": {"missed": missed, "away": alone, "stalls": len(pauses), "stalled_share": taken}}
     return found
 
 
-def flown(folder) -> dict[str, np.ndarray]:
-    """The record of time of one flight at that rate."""
-    flight = programs.fly(folder, PORT, "realtime", f"scenario.duration_s={SECONDS}", f"timing.rate_hz={RATE_HZ}",
+def timing_of_run(folder) -> dict[str, np.ndarray]:
+    """REED_TIMING of one run at that rate."""
+    done = programs.run_programs(folder, PORT, "realtime", f"scenario.duration_s={SECONDS}", f"timing.rate_hz={RATE_HZ}",
                                 "timing.rx_budget_us=130", "timing.compute_budget_us=60", "timing.tx_budget_us=60",
                                 "scenario.allow_wire_overload=true", *AGES, *pinned())
-    return load(flight.log).tables["REED_TIMING"]
+    return load(done.log).tables["REED_TIMING"]
 
 
-class Witness:
+class PauseWatch:
     """cyclictest on the cores of both programs, its wake-ups aligned to a second of CLOCK_MONOTONIC."""
 
     def __init__(self):
@@ -72,13 +72,13 @@ class Witness:
         return self
 
     def __exit__(self, *_):
-        """A flight that failed needs no witness any more."""
+        """A run that failed needs no watch any more."""
         self.process.kill()
         self.process.wait()
         self.text.close()
 
-    def stalls(self) -> np.ndarray:
-        """When a core was away: rows of (due, woken), µs of CLOCK_MONOTONIC. Waits for cyclictest's end."""
+    def pauses(self) -> np.ndarray:
+        """When a core did not run: rows of (due, woken), µs of CLOCK_MONOTONIC. Waits for cyclictest's end."""
         self.process.wait()
         self.text.seek(0)
         late: dict[str, list[int]] = {}
@@ -86,37 +86,37 @@ class Witness:
             late.setdefault(thread, []).append(int(latency_us))
         if not late:
             raise RunError("cyclictest printed nothing; it needs the right to SCHED_FIFO")
-        found = [stall for latencies in late.values() for stall in stalls_of(latencies, self.start_us)]
+        found = [pause for latencies in late.values() for pause in pauses_of(latencies, self.start_us)]
         return np.array(sorted(found)).reshape(-1, 2)
 
 
-def stalls_of(latencies_us: list[int], start_us: float) -> list[tuple[float, float]]:
+def pauses_of(latencies_us: list[int], start_us: float) -> list[tuple[float, float]]:
     """cyclictest keeps its grid: after a late wake-up the next one is due at the first point that is not past."""
     found, due = [], start_us + LOOK_US
     for latency_us in latencies_us:
         woken = due + latency_us
-        if latency_us >= STALL_US:
+        if latency_us >= PAUSE_US:
             found.append((due, woken))
         due += LOOK_US * (1 + max(0, latency_us // LOOK_US))
     return found
 
 
-def away(table: dict[str, np.ndarray], stalls: np.ndarray) -> int:
-    """Missed cycles whose cause no stall can be."""
+def outside_pauses(table: dict[str, np.ndarray], pauses: np.ndarray) -> int:
+    """Missed cycles that no pause explains."""
     steps = np.diff(table["missed"])
     late = np.nonzero(steps)[0] + 1
-    return int(steps[late - 1][~stalled(table, late, stalls)].sum())
+    return int(steps[late - 1][~met_pause(table, late, pauses)].sum())
 
 
-def by_chance(table: dict[str, np.ndarray], stalls: np.ndarray) -> float:
-    """Share of the punctual cycles that a stall met too: what the witness would excuse whatever the cause."""
+def by_chance(table: dict[str, np.ndarray], pauses: np.ndarray) -> float:
+    """Share of the punctual cycles that met a pause, too: what counts as a host pause by chance."""
     punctual = np.nonzero(np.diff(table["missed"]) == 0)[0] + 1
-    return float(stalled(table, punctual[::20], stalls).mean())
+    return float(met_pause(table, punctual[::20], pauses).mean())
 
 
-def stalled(table: dict[str, np.ndarray], cycles: np.ndarray, stalls: np.ndarray) -> np.ndarray:
-    """Whether a core was away between a cycle's due time and its end."""
+def met_pause(table: dict[str, np.ndarray], cycles: np.ndarray, pauses: np.ndarray) -> np.ndarray:
+    """Whether a core did not run between a cycle's due time and its end."""
     to_monotonic_us = 1e6 * (time.monotonic() - time.time())
     began = table["utime"][cycles] + to_monotonic_us
     due, ended = began - table["wake_ns"][cycles] * 1e-3 - EDGE_US, began + table["cycle_ns"][cycles] * 1e-3 + EDGE_US
-    return np.array([((stalls[:, 0] <= end) & (stalls[:, 1] >= begin)).any() for begin, end in zip(due, ended)], dtype=bool)
+    return np.array([((pauses[:, 0] <= end) & (pauses[:, 1] >= begin)).any() for begin, end in zip(due, ended)], dtype=bool)

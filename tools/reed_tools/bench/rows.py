@@ -1,4 +1,4 @@
-"""One comparison of tools/reed bench, and how it is told: ratio and aim first."""
+"""One comparison of tools/reed bench, and how it is shown: ratio and aim first."""
 
 import math
 from dataclasses import dataclass, field

@@ -145,7 +145,7 @@ def name(path: Path, key: str, value, keep: str = "") -> str:
 
 def setting(path: Path, key: str, value):
     if isinstance(value, dict):
-        raise UsageError(f"{path}: set.{key}: expected a value; a key with dots stands in quotes, like \"wall.friction\" = 0.2")
+        raise UsageError(f"{path}: set.{key}: expected a value; a key with dots needs quotes, like \"wall.friction\" = 0.2")
     return value
 
 

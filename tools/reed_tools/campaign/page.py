@@ -28,9 +28,9 @@ def worst(summary: dict) -> str:
     rows = []
     for draw in summary["worst"]:
         why = draw["deciding"]
-        told = f"{why['name']} = {number(why['value'])} (limit {number(why['limit'])})" if why else ""
+        why_text = f"{why['name']} = {number(why['value'])} (limit {number(why['limit'])})" if why else ""
         ratio = number(draw["ratio"], 3) if draw["ratio"] is not None else "∞"
-        cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in (draw["index"], draw["seed"], ratio, draw["message"] or told))
+        cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in (draw["index"], draw["seed"], ratio, draw["message"] or why_text))
         rows.append(f"<tr>{cells}</tr>"
                     f'<tr><td colspan="4"><pre>{html.escape(draw["command"])}</pre></td></tr>')
     return ("<table><thead><tr><th>draw</th><th>seed</th><th>ratio</th><th>deciding</th></tr></thead><tbody>\n" + "\n".join(rows)

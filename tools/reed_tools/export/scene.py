@@ -1,4 +1,4 @@
-"""What viewers understand without being told: foxglove's FrameTransforms, SceneUpdate and Log."""
+"""Messages that viewers draw without a set-up: foxglove's FrameTransforms, SceneUpdate and Log."""
 
 from dataclasses import dataclass
 from typing import Any, Callable

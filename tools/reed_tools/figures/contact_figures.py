@@ -71,7 +71,7 @@ def torque_peak_percent(run: RunData):
 
 
 def torque_step_at_switch_percent(run: RunData):
-    """largest change of a commanded torque in the cycle in which the law in charge changed, in percent of the joint's limit"""
+    """largest change of a commanded torque in the cycle in which the active law changed, in percent of the joint's limit"""
     switched = np.flatnonzero(np.diff(run.signals.source) != 0)
     if not len(switched):
         return 0.0
@@ -80,13 +80,13 @@ def torque_step_at_switch_percent(run: RunData):
 
 
 def source_switch_cycles(run: RunData):
-    """most cycles without a sound wrench frame when the law in charge changed away from the measured force"""
+    """most cycles without a valid wrench frame when the active law changed away from the measured force"""
     source, measured = run.signals.source, run.recording.tables["REED_MEASURED"]
     known = SOURCES.index("known")
     left = run.signals.cycle[1:][(source[:-1] == known) & (source[1:] != known)]
     ages = measured["wrench_age"][np.isin(measured["cycle"], left)]
     if not len(ages):
-        raise NoFigure("the law in charge never changed away from the measured force")
+        raise NoFigure("the active law never changed away from the measured force")
     return int(ages.max())
 
 

@@ -37,7 +37,7 @@ def estimate_drift_percent(run: RunData):
 
 
 def estimate_drift_ratio(run: RunData):
-    """the same change over that from the first to the middle third, where it is more than 1 %: 1 drifts steadily, less settles"""
+    """the same change over that from the first to the middle third, where it is more than 1 %: 1 drifts steadily, less converges"""
     first, middle, last = estimate_thirds(run)
     moving = np.abs(last - middle) > RESTING
     if not np.any(moving):

@@ -38,7 +38,7 @@ def reason(events: list[dict]) -> dict | None:
 
 
 def in_words(reason: dict) -> str:
-    """The unit stands at the end of an event's text: behind the value it reads better."""
+    """The unit is at the end of an event's text; it is shown behind the value."""
     what, comma, unit = reason["text"].rpartition(", ")
     what, unit = (what, f" {unit}") if comma and unit in UNITS else (reason["text"], "")
     where = f" of joint {reason['joint'] + 1}" if reason["joint"] is not None else ""

@@ -35,7 +35,7 @@ class Bookkeeping:
 
 
 def of_run(signals: Signals | None, effective: dict) -> Bookkeeping | None:
-    """None where the law has no V, nothing was recorded, or the record is of another arm than the configuration. A run that changed its source is judged by (42) alone."""
+    """None where the law has no V, nothing was recorded, or the record is of another arm than the configuration. A run that changed its source is evaluated by (42) alone."""
     law = effective["control"]["law"]
     if signals is None or law not in WITH_V or len(signals.t) < 3 or signals.dof != len(effective["arm"]["dh"]):
         return None

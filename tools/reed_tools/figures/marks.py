@@ -1,4 +1,4 @@
-"""What happened, drawn into every picture over time: contact, another law in charge, the stop; and where joints reverse."""
+"""What happened, drawn into every picture over time: contact, another active law, the stop; and where joints reverse."""
 
 import numpy as np
 

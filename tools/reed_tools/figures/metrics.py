@@ -88,7 +88,7 @@ def zero_cycle(recording: Recording) -> int:
 
 
 def modes(recording: Recording, rate_hz: float) -> list[dict]:
-    """Every change of mode or of the law in charge; t = 0 is where the arm became active (negative before)."""
+    """Every change of mode or of the active law; t = 0 is where the arm became active (negative before)."""
     control = recording.tables["REED_CONTROL"]
     if not recording.has("REED_CONTROL"):
         return []

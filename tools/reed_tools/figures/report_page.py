@@ -14,13 +14,13 @@ from reed_tools.show.tables import number
 CAPTIONS = {
     "joint_error": "Planned reference minus motor-side angle; triangles: the joint turns round and its Coulomb friction changes sign. While "
                    "the arm presses, the force loop moves it off the plan along the force direction D on purpose: that part is in the "
-                   "upper curves and no failure. The lower curves are without it, and the checks judge them.",
-    "tip_error": "The plant's true, bent tip against the planned tip. Along the wall's normal the arm gives way until the force is right.",
+                   "upper curves and no failure. The lower curves are without it, and the checks apply to them.",
+    "tip_error": "The plant's true, bent tip against the planned tip. Along the wall's normal the arm yields until the force is right.",
     "force": "Desired, measured and true normal force; below, the true force error.",
     "torque": "Torque as commanded, after all limits.",
     "parameters": "Estimates against the plant's true values (dashed) inside their box (grey). They need not converge to the truth.",
     "lyapunov": "V of (42) or (45), wide and grey, with its parts, and its derivative by the equations and by differences. The equations "
-                "know no Coulomb friction and no bending: V settles where they balance.",
+                "contain no Coulomb friction and no bending: V converges to where they balance.",
     "timing": "How long each phase of a cycle took.",
 }
 FREE_JOINT_ERROR = "Planned reference minus motor-side angle; triangles: the joint turns round and its Coulomb friction changes sign."

@@ -34,7 +34,7 @@ def timing(summary: dict) -> Table:
     return table
 
 
-LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware tells when it ends
+LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware reports it at its end
 
 
 def lines(summary: dict) -> list[str]:

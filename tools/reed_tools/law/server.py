@@ -81,7 +81,7 @@ def torque_of(step, question: SimpleNamespace, state: SimpleNamespace) -> np.nda
 
 
 def start(file: str):
-    """The law, tried once on an arm that stands still where it should be; with a fresh state for the run."""
+    """The law, called once on an arm at rest on its reference; with a new state for the run."""
     values = numbers()
     n, m = int(values[0]), int(values[1])
     at = 3 + np.arange(3) * n

@@ -1,4 +1,4 @@
-"""A moment of a run in words: mode, law in charge, limits at work, bus, loop, events. HTML for the page."""
+"""A moment of a run in words: mode, active law, active limits, bus, loop, events. HTML for the page."""
 
 from html import escape
 
@@ -22,7 +22,7 @@ def headline(moment: Moment, silent_s: float) -> str:
     if finished or (silent_s > SILENCE_s and moment.mode == OFF):
         return "the run has ended; waiting for the next one"
     if silent_s > SILENCE_s:
-        return f"nothing heard for {silent_s:.0f} s: the run was cut short or stands still"
+        return f"nothing heard for {silent_s:.0f} s: the run ended early or is paused"
     return f"running, {MODES[moment.mode]}"
 
 
@@ -55,7 +55,7 @@ def page_text(moment: Moment, state: str) -> str:
     if moment.cycle is not None:
         law = f"{moment.run.law}: " if moment.run is not None else ""
         rows += [("time", f"{moment.t_s:.2f} s since active, cycle {moment.cycle}"), ("mode", MODES[moment.mode]),
-                 ("law in charge", law + LAWS[SOURCES[moment.source]]), ("limits at work", limits_at_work(moment.limits)),
+                 ("active law", law + LAWS[SOURCES[moment.source]]), ("active limits", limits_at_work(moment.limits)),
                  ("force", f"{moment.force_measured:.2f} N measured, {moment.force_desired:.2f} N desired"), ("drives", drives(moment)),
                  ("bus", bus_health(moment.bus)), ("loop", f"{moment.missed} cycles missed, {moment.overruns} overruns")]
     body = "".join(f'<tr><td style="color:#777;padding-right:.6em;vertical-align:top;white-space:nowrap">{name}</td>'

@@ -34,11 +34,11 @@ PANELS = {
                 "σ̂₀ s + σ̂₁ sgn(s) keeps the system robust; the error function converges onto the sliding surface.",
                 "Joint reference. Top: torques, as in Fig. 12. Bottom: ‖s‖, the distance from the sliding surface."),
     "14": Panel("14", "Parameter adaptation, unknown force, Cartesian space",
-                "A worst case with large fluctuations; all estimates bounded and finally settled.",
+                "A worst case with large fluctuations; all estimates bounded and finally constant.",
                 "Cartesian reference. Left the paper's bounds η̂ from η(0) on, right p̂ of `separated`; below σ̂₀ and σ̂₁. The quantities "
                 "differ, so each side has its own scale."),
     "15": Panel("15", "Parameter adaptation, unknown force, configuration space",
-                "As Fig. 14: bounded and finally settled.", "The same with a joint reference."),
+                "As Fig. 14: bounded and finally constant.", "The same with a joint reference."),
     "16": Panel("16", "Joint and force error, known force",
                 "Both errors peak at the start, where adaptation has not acted yet; the joint error then falls steeply, the force error "
                 "fluctuates and declines.",
@@ -46,22 +46,22 @@ PANELS = {
                "which belongs to the force. "
                 "Bottom: desired − true force, from contact on."),
     "17": Panel("17", "Tracking and parameter error, unknown force",
-                "Both errors settle inside a bound. (The caption says “known”; the text shows that unknown is meant.)",
+                "Both errors converge to a bound. (The caption says “known”; the text shows that unknown is meant.)",
                 "Top logarithmic. Below, the distance of p̂ from the truth, or of η̂ from the bound it estimates, relative to its start."),
 }
 
 SCOPE = ("The paper prints no lengths, masses, stiffnesses or trajectories and its figures carry curves of an unnamed arm: what can be "
-         "compared is the course of the curves, not their values. Reed's arm a5 bends, has Coulomb friction that no law is told of, "
+         "compared is the course of the curves, not their values. Reed's arm a5 bends, has Coulomb friction that no law knows, "
          "encoder, torque and force quantisation, sensor noise and one cycle of delay; the controller starts from wrong masses. Both "
          "columns of a figure share their axes unless said otherwise.")
 PAPER_GAINS = ("K_d = 10, Λ = 5, Γ = 0.05 known and 0.015 unknown, ς = 0.015, η(0) = [.8 .2 .2 .8 .8 .8], equations corrected so "
                "that they can run (docs/control_law.md); as printed, the law appears in the comparison of laws.")
-FAIR = ("“Fixed nominal parameters” has the gains and the force loop of `separated` and learns nothing; its normal speed limit is 200 instead of "
+FAIR = ("“Fixed nominal parameters” has the gains and the force loop of `separated` and does not adapt; its normal speed limit is 200 instead of "
         "30 mm/s in the known-force case, without which it would not reach the wall in time.")
 BOOKKEEPING = {
     "known": "From the plant's truth. The equations are those of a rigid arm without Coulomb friction; the run has a bending arm with "
-             "it, so V settles where they balance. Each side has its own scale.",
+             "it, so V converges to where they balance. Each side has its own scale.",
     "unknown": "d₀ is the largest push of the run in joint space, σ₁ = d₀. The paper's law needs σ̂₁ to reach it and would take minutes; "
-               "`separated` bounds σ̂₁ far below it and lives by K_d and by adaptation: where σ̂₁ stands still at its bound, (46) "
+               "`separated` bounds σ̂₁ far below it and relies on K_d and adaptation: where σ̂₁ stays at its bound, (46) "
                "promises nothing and V rises and falls with the push. Each side has its own scale.",
 }

@@ -41,7 +41,7 @@ class Recording:
 
     @property
     def finished_run(self):
-        """What the firmware told of the loop when it ended; None if it never came to that."""
+        """What the firmware reported of the loop at its end; None without that report."""
         return self.run if self.run and self.run.finished else None
 
     def digest(self, clock: str) -> str:

@@ -90,7 +90,7 @@ def clear(folder: Path) -> None:
 
 
 def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = False) -> int:
-    """Keeps what was recorded first, then tells what happened."""
+    """Keeps what was recorded first, then reports what happened."""
     from reed_tools.figures.evaluate import evaluate  # numpy and matplotlib: not before the loop has run
 
     link_frames(folder)

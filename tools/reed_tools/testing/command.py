@@ -33,7 +33,7 @@ def run(arguments) -> int:
 
 
 def own_environment() -> dict[str, str]:
-    """Without what the caller tells his own Python."""
+    """Without the caller's PYTHON variables."""
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 
