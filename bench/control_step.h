@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reed/bench/inputs.h"
-#include "reed/config/schema/scenario_file.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/safety/limits.h"
 #include "reed/core/separated.h"
 #include "reed/firmware/planner/path_planner.h"
@@ -13,7 +13,7 @@ namespace reed::bench {
 template <int N, int P>
 class ControlStep {
  public:
-  explicit ControlStep(const Scenario& scenario)
+  explicit ControlStep(const ControllerConfig& scenario)
       : arm_(scenario.arm),
         path_(Path(scenario)),
         strategy_(scenario, arm_, path_),
@@ -50,7 +50,7 @@ class ControlStep {
  private:
   static double TimeOf(int k) noexcept { return 0.5 + 0.02 * k; }
 
-  reference::JointPath<N> Path(const Scenario& scenario) const {
+  reference::JointPath<N> Path(const ControllerConfig& scenario) const {
     const auto pose_of = [this](const model::Vec<N>& q) {
       model::Kinematics<N> kin;
       model::ForwardKinematics<N, P>(arm_, q, model::Vec<N>::Zero(), kin);
@@ -59,7 +59,7 @@ class ControlStep {
     return reference::PathPlanner<N>(pose_of, scenario).Plan();
   }
 
-  protect::LimitValues<N> Limits(const Scenario& scenario) const {
+  protect::LimitValues<N> Limits(const ControllerConfig& scenario) const {
     protect::LimitValues<N> v;
     v.torque = arm_.torque_limit;
     v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;

@@ -11,7 +11,7 @@ namespace reed::bench {
 template <int N, int P>
 class Stages {
  public:
-  explicit Stages(const Scenario& scenario)
+  explicit Stages(const ControllerConfig& scenario)
       : arm_(scenario.arm),
         gains_(scenario, arm_),
         law_(strategy::LawBank<N, P>::Find("separated")),

@@ -4,18 +4,33 @@
 #include <fstream>
 #include <iostream>
 
+#include "reed/config/schema/halves.h"
 #include "reed/config/schema/scenario_file.h"
+
+namespace {
+
+void Write(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  std::ofstream out(path);
+  if (!(out << text << std::flush)) throw reed::ConfigError(path + ": cannot be written");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
-  std::string scenario = "press_known", write_path;
+  std::string scenario = "press_known", write_path, controller_path, plant_path;
   reed::LoadOptions options;
-  bool keys = false;
+  bool keys = false, arm_keys = false;
   app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
   app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
   app.add_option("--set", options.set, "SECTION.KEY=VALUE, repeatable")->take_all();
   app.add_option("--write", write_path, "write the effective configuration here");
-  app.add_flag("--keys", keys, "print the table of all keys (config/README.md)");
+  app.add_option("--write-controller", controller_path,
+                 "write the controller's half here: nothing of the truth");
+  app.add_option("--write-plant", plant_path, "write the plant's half here: nothing of the law");
+  app.add_flag("--keys", keys, "print the table of a scenario's keys (config/README.md)");
+  app.add_flag("--arm-keys", arm_keys, "print the table of an arm's keys (config/README.md)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -24,15 +39,15 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s (reed_config --help lists the options)\n", error.what());
     return 2;
   }
-  if (keys) {
-    std::cout << reed::KeyReference();
+  if (keys || arm_keys) {
+    std::cout << (keys ? reed::KeyReference() : reed::ArmKeyReference());
     return 0;
   }
   try {
-    const std::string effective = reed::EffectiveToml(reed::LoadScenario(scenario, options));
-    if (write_path.empty()) return 0;
-    std::ofstream out(write_path);
-    if (!(out << effective)) throw reed::ConfigError(write_path + ": cannot be written");
+    const reed::Scenario checked = reed::LoadScenario(scenario, options);
+    Write(write_path, reed::EffectiveToml(checked));
+    Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));
+    Write(plant_path, reed::ToToml(reed::PlantHalf(checked)));
   } catch (const reed::ConfigError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -23,7 +23,7 @@ void VisitNumbers(Each&& each, model::ArmModel<N, P>& arm) {
     index(arm.shape[j].k);
     each(arm.shape[j].unit.m), list(arm.shape[j].unit.h), list(arm.shape[j].unit.J);
   }
-  list(arm.viscous), list(arm.p_true), list(arm.p_nominal), list(arm.p_lo), list(arm.p_hi);
+  list(arm.viscous), list(arm.p_nominal), list(arm.p_lo), list(arm.p_hi);
   index(arm.num_parameters);
   list(arm.rotor_inertia), list(arm.joint_stiffness), list(arm.joint_hardening), list(arm.torque_limit);
   list(arm.position_min), list(arm.position_max), list(arm.speed_limit);

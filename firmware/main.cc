@@ -12,6 +12,7 @@
 #include "options.h"
 #include "reed/bus/codec/wire_time.h"
 #include "reed/bus/transport/open_transport.h"
+#include "reed/config/controller/load_controller_config.h"
 #include "reed/config/description/cores.h"
 #include "reed/firmware/loop/loop.h"
 #include "reed/firmware/record/recorder.h"
@@ -48,7 +49,7 @@ void FlyInside(const LoopOptions& loop, bool wall, CycleBase& cycle, telemetry::
   flight.usage = rt::ThreadUsage() - before;
 }
 
-Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& loop,
+Flight Fly(const Options& options, const ControllerConfig& scenario, const LoopOptions& loop,
            bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = StopFlag();
   const bool wall = options.clock == ClockKind::kWall;
@@ -78,7 +79,7 @@ Flight Fly(const Options& options, const Scenario& scenario, const LoopOptions& 
   return flight;
 }
 
-run_t Describe(const Options& options, const Scenario& scenario, const bus::Transport& transport) {
+run_t Describe(const Options& options, const ControllerConfig& scenario, const bus::Transport& transport) {
   run_t run{};
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
@@ -117,7 +118,7 @@ std::string Place(const TripPlace& place) {
 }
 
 int Run(const Options& options) {
-  const Scenario scenario = LoadScenario(options.config, options.load);
+  const ControllerConfig scenario = LoadControllerConfig(options.config, options.load);
   RefuseWireOverload(scenario);
   const LoopOptions loop = LoopOptionsFrom(WithBudgets(scenario));
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);

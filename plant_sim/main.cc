@@ -12,6 +12,7 @@
 #include "options.h"
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/description/cores.h"
+#include "reed/config/plant/load_plant_config.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
@@ -29,15 +30,15 @@ void Say(const Options& options, const std::string& line) {
   std::fflush(stdout);
 }
 
-std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
+std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const PlantConfig& config,
                                        bus::Transport& transport, ArmBody& body, Recorder& recorder,
                                        const StallWatch& watch) {
   if (options.clock == ClockKind::kLockstep) {
-    return std::make_unique<LockstepEndpoint>(scenario, transport, body, recorder);
+    return std::make_unique<LockstepEndpoint>(config, transport, body, recorder);
   }
   WallClock clock = WallClock::System();
   clock.stood_ns = [&watch] { return watch.stood_ns(); };
-  return std::make_unique<WallEndpoint>(scenario, transport, body, recorder, clock);
+  return std::make_unique<WallEndpoint>(config, transport, body, recorder, clock);
 }
 
 /// Until the endpoint ends by itself, its time is over, or a signal asks; then what already lies on the bus
@@ -53,17 +54,17 @@ void Serve(Endpoint& endpoint, double duration_s) {
 }
 
 int Run(const Options& options) {
-  const Scenario scenario = LoadScenario(options.config, options.load);
+  const PlantConfig config = LoadPlantConfig(options.config, options.load);
   const bool wall = options.clock == ClockKind::kWall;
   InstallStopSignals();
-  FlexibleArmBody body(scenario);
+  FlexibleArmBody body(config);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   Publisher publisher({options.log, options.lcm, !options.quiet, wall ? WhenFull::kDrop : WhenFull::kWait});
   StallWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
-      MakeEndpoint(options, scenario, *transport, body, publisher, watch);
+      MakeEndpoint(options, config, *transport, body, publisher, watch);
   if (wall) {
-    const TimingConfig& timing = scenario.timing;
+    const TimingConfig& timing = config.timing;
     std::vector<std::string> refused{watch.Start(PlantCore(timing), timing.priority + 1)};
     for (const std::string& line : AskForRealtime(timing)) refused.push_back(line);
     for (const std::string& line : refused) {
@@ -71,7 +72,7 @@ int Run(const Options& options) {
     }
   }
 
-  Say(options, "arm " + scenario.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
+  Say(options, "arm " + config.arm.name + ", clock " + (wall ? "wall" : "lockstep") +
                    ": waiting for SYNC on " + transport->interface());
   Serve(*endpoint, options.duration_s);
 

@@ -118,7 +118,7 @@ void Document::Graft(const std::string& section, Document&& other) {
   for (auto& text : other.json_texts_) json_texts_.push_back(std::move(text));
 }
 
-void Document::Override(const std::string& assignment) {
+void Document::Override(const std::string& assignment, const std::string& typed) {
   const auto refuse = [&](const std::string& problem) {
     throw ConfigError("--set " + assignment + ": " + problem);
   };
@@ -167,7 +167,7 @@ void Document::Override(const std::string& assignment) {
       array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), concrete);
     });
   }
-  overridden_.insert(dotted);
+  overridden_[dotted] = typed.empty() ? dotted : typed;
 }
 
 void Document::Fail(const toml::node* where, const std::string& key, const std::string& problem) const {
@@ -179,9 +179,9 @@ void Document::Fail(const toml::node* where, const std::string& key, const std::
       plain += c;
   }
   const bool written = where != nullptr && where->source().path && where->source().begin;
-  for (const std::string& typed : overridden_)
-    if (plain == typed || plain.starts_with(typed + ".") || (!written && typed.starts_with(plain + ".")))
-      throw ConfigError("--set " + typed + ": " + (plain == typed ? "" : key + ": ") + problem);
+  for (const auto& [set, typed] : overridden_)
+    if (plain == set || plain.starts_with(set + ".") || (!written && set.starts_with(plain + ".")))
+      throw ConfigError("--set " + typed + ": " + (plain == set ? "" : key + ": ") + problem);
   if (written)
     throw ConfigError(*where->source().path + ":" + std::to_string(where->source().begin.line) + ": " + key +
                       ": " + problem);

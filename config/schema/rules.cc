@@ -14,8 +14,13 @@ class Rules {
  public:
   Rules(const Document& doc, const Scenario& s) : doc_(doc), s_(s) {}
 
-  void Sizes() const {
+  void SizesOfPlant() const {
     PerJoint("reference.start_rad", s_.reference.start_rad, true);
+    PerParameter("control.p_initial", s_.control.p_initial);
+    PerParameter("plant.p_true", s_.plant.p_true);
+  }
+
+  void SizesOfLaw() const {
     PerJoint("control.K_d", s_.control.K_d, true);
     PerJoint("control.Lambda", s_.control.Lambda, true);
     for (std::size_t i = 0; i < s_.reference.legs.size(); ++i) {
@@ -25,8 +30,6 @@ class Rules {
       if (leg.kind == ReferenceLeg::Kind::kJoint) PerJoint(key + "to_rad", leg.to_rad, true);
       if (leg.kind == ReferenceLeg::Kind::kSine) PerJoint(key + "amplitude_rad", leg.amplitude_rad, true);
     }
-    PerParameter("control.p_initial", s_.control.p_initial);
-    PerParameter("plant.p_true", s_.plant.p_true);
   }
 
   /// A run needs what a drawing of the arm does not: motors, limits, stiffness.
@@ -110,6 +113,9 @@ class Rules {
   void WallIsMeaningful() const {
     const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
     if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
+  }
+
+  void WallIsWithinReach() const {
     if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
     double reach = s_.arm.tool_offset_m.norm();
     for (const DhRow& row : s_.arm.dh) reach += std::hypot(row.a_m, row.d_m);
@@ -169,12 +175,15 @@ class Rules {
 
 }  // namespace
 
-void CheckRules(const Document& doc, const Scenario& scenario) {
+void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   const Rules rules(doc, scenario);
   rules.ArmIsComplete();
-  rules.Sizes();
+  rules.SizesOfPlant();
   rules.StartInsideLimits();
   rules.BoxHoldsStartAndTruth();
+  rules.WallIsWithinReach();
+  if (!has_law) return;
+  rules.SizesOfLaw();
   rules.LawIsKnown();
   rules.ForceLimitIsMeasured();
   rules.AgesAreGraded();

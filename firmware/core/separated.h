@@ -47,7 +47,7 @@ struct Decision {
 template <int N, int P>
 class Separated {
  public:
-  Separated(const Scenario& scenario, const model::ArmModel<N, P>& arm, reference::JointPath<N> path)
+  Separated(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm, reference::JointPath<N> path)
       : arm_(arm),
         gains_(scenario, arm),
         law_(LawBank<N, P>::Find(scenario.control.law)),

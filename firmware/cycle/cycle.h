@@ -16,7 +16,7 @@ namespace reed {
 template <int N, int P>
 class Cycle final : public CycleBase {
  public:
-  Cycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted)
+  Cycle(const ControllerConfig& scenario, bus::Transport& transport, bool start_wanted)
       : arm_(scenario.arm),
         bus_(transport),
         strategy_(scenario, arm_, PlanPath(scenario)),
@@ -64,7 +64,7 @@ class Cycle final : public CycleBase {
   bool active() const noexcept { return supervisor_.mode() == mode::Mode::kActive; }
   double time_s() const noexcept { return active() ? T_ * supervisor_.cycles_in_mode() : 0.0; }
 
-  reference::JointPath<N> PlanPath(const Scenario& scenario) const {
+  reference::JointPath<N> PlanPath(const ControllerConfig& scenario) const {
     const auto pose_of = [this](const model::Vec<N>& q) {
       model::Kinematics<N> kin;
       model::ForwardKinematics<N, P>(arm_, q, model::Vec<N>::Zero(), kin);
@@ -73,7 +73,7 @@ class Cycle final : public CycleBase {
     return reference::PathPlanner<N>(pose_of, scenario).Plan();
   }
 
-  protect::LimitValues<N> LimitValuesFrom(const Scenario& scenario) const {
+  protect::LimitValues<N> LimitValuesFrom(const ControllerConfig& scenario) const {
     protect::LimitValues<N> v;
     v.torque = scenario.limits.torque_scale * arm_.torque_limit;
     v.torque_step = scenario.limits.torque_rate_Nmps / scenario.timing.rate_hz;

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "reed/bus/transport/transport.h"
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/safety/mode_table.h"
 #include "reed/core/safety/reason.h"
 #include "reed/firmware/snapshot/snapshot.h"
@@ -46,6 +46,7 @@ class CycleBase {
 
 /// The cycle for this arm's number of joints (2 … 8) and parameters. Set-up only; throws std::runtime_error
 /// with one line.
-std::unique_ptr<CycleBase> MakeCycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted);
+std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport,
+                                     bool start_wanted);
 
 }  // namespace reed

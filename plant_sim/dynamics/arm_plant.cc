@@ -34,11 +34,11 @@ std::vector<Brake> BuildBrakes(const ArmChain& chain) {
 
 class ArmPlant::Impl {
  public:
-  explicit Impl(const Scenario& scenario)
-      : config_(scenario.plant),
-        chain_(BuildChain(scenario.arm, scenario.plant)),
-        wall_(scenario.wall),
-        disturbance_(scenario.disturbance, scenario.seed),
+  explicit Impl(const PlantConfig& config)
+      : config_(config.plant),
+        chain_(BuildChain(config.arm, config.plant)),
+        wall_(config.wall),
+        disturbance_(config.disturbance, config.seed),
         equations_(chain_, wall_),
         integrator_(equations_.size()),
         brakes_(BuildBrakes(chain_)) {
@@ -147,7 +147,7 @@ class ArmPlant::Impl {
     truth_.potential_J = equations_.GravityEnergy();
   }
 
-  PlantConfig config_;
+  PlantModelConfig config_;
   ArmChain chain_;
   Wall wall_;
   Disturbance disturbance_;
@@ -163,7 +163,7 @@ class ArmPlant::Impl {
   int sick_coordinate_ = -1;
 };
 
-ArmPlant::ArmPlant(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario)) {}
+ArmPlant::ArmPlant(const PlantConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 ArmPlant::~ArmPlant() = default;
 void ArmPlant::Reset(const VectorXd& motor_angle_rad) { impl_->Reset(motor_angle_rad); }
 void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {

@@ -4,12 +4,12 @@
 
 namespace reed::plant {
 
-Endpoint::Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder)
-    : period_s_(1.0 / scenario.timing.rate_hz),
-      timeout_periods_(scenario.drives.command_timeout_cycles),
+Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder)
+    : period_s_(1.0 / config.timing.rate_hz),
+      timeout_periods_(config.drives.command_timeout_cycles),
       body_(body),
       journal_(recorder),
-      robot_(scenario, body, journal_),
+      robot_(config, body, journal_),
       port_(transport) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {

@@ -23,7 +23,7 @@ struct WallClock {
 
 class WallEndpoint final : public Endpoint {
  public:
-  WallEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+  WallEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
                WallClock clock = WallClock::System());
 
  private:

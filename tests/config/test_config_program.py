@@ -180,8 +180,9 @@ def test_a_json_arm_without_limits_runs_with_careful_ones(tmp_path):
     assert arm["position_min"] == [-2.9] * 5 and arm["position_max"] == [2.9] * 5
     assert arm["speed_limit"] == [3.0] * 5
     given = tomllib.loads(ARM)
-    for key in ("dh", "p_true", "torque_limit", "joint_stiffness"):
+    for key in ("dh", "torque_limit", "joint_stiffness"):
         assert arm[key] == given[key]
+    assert arm["truth"]["p"] == given["p_true"]
 
 
 @pytest.mark.parametrize("key", ["rotor_inertia_reflected", "joint_stiffness", "torque_limit"])
@@ -229,6 +230,8 @@ def test_effective_numbers_are_as_short_as_typed_and_read_back_unchanged(tmp_pat
 def test_the_readme_holds_the_table_of_every_key():
     keys = subprocess.run([PROGRAM, "--keys"], capture_output=True, text=True, check=True).stdout
     assert keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --keys` prints"
+    arm_keys = subprocess.run([PROGRAM, "--arm-keys"], capture_output=True, text=True, check=True).stdout
+    assert arm_keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --arm-keys` prints"
 
 
 def test_the_readme_names_every_key_of_the_arm_and_every_check():
@@ -252,7 +255,7 @@ def test_another_truth_moves_the_bodies_and_nothing_that_the_controller_knows(tm
 
     _, before = effective()
     path, after = effective("--set", "plant.p_true=[1.0,0.2,0.06,0.55,0.6,0.25]")
-    bodies, old = after["arm"]["bodies"], before["arm"]["bodies"]
+    bodies, old = after["arm"]["truth"]["bodies"], before["arm"]["truth"]["bodies"]
     assert bodies[1]["mass"] == pytest.approx(1.0) and bodies[1]["com"] == pytest.approx([0.175, 0, 0])
     assert bodies[1]["inertia_about_com"][2][2] == pytest.approx(1.0 * 0.35**2 / 12)
     assert bodies[0]["inertia_about_com"][2][2] == pytest.approx(0.2) and bodies[0]["mass"] == 0
@@ -262,8 +265,9 @@ def test_another_truth_moves_the_bodies_and_nothing_that_the_controller_knows(tm
     # about the centre of mass: both parts' own inertia and their distances from it
     own = 0.6 * 0.0021 + 0.25 * 0.00064
     assert bodies[4]["inertia_about_com"][0][0] == pytest.approx(own + 0.6 * (0.075 + c)**2 + 0.25 * c**2)
-    assert after["arm"]["p_true"] == [1.0, 0.2, 0.06, 0.55, 0.6, 0.25] and after["arm"]["p_nom"] == before["arm"]["p_nom"]
-    assert {key for key in after["arm"] if after["arm"][key] != before["arm"][key]} == {"bodies", "p_true"}
+    assert after["arm"]["truth"]["p"] == [1.0, 0.2, 0.06, 0.55, 0.6, 0.25]
+    assert {key for key in before["arm"] if after["arm"][key] != before["arm"][key]} == {"truth"}
+    assert {key for key in before["arm"]["truth"] if after["arm"]["truth"][key] != before["arm"]["truth"][key]} == {"bodies", "p"}
     assert effective(config=path)[1] == after  # read back as it was written
 
 
@@ -271,3 +275,84 @@ def test_a_truth_outside_its_box_is_refused():
     assert "m2: truth 1.3 lies outside the box 0 ... 1.2" in refused("--config", "press_known", "--set",
                                                                      "plant.p_true=[1.3,0.15,0.12,0.55,0.4,0.5]")
     assert "3 numbers for 6 parameters" in refused("--config", "press_known", "--set", "plant.p_true=[0.7,0.15,0.12]")
+
+
+TRUTHS = ("plant", "drives", "disturbance")  # sections of the plant alone
+
+
+def halves(folder, *options):
+    controller, plant = folder / "controller.toml", folder / "plant.toml"
+    assert run(*options, "--write-controller", str(controller), "--write-plant", str(plant)) == (0, "")
+    return controller, plant
+
+
+def test_the_controllers_half_does_not_change_with_the_truth(tmp_path):
+    """Every true value is moved; what is written for the controller stays the same text."""
+    moved = {"arm.truth.p": "[1.0,0.2,0.06,0.5,0.6,0.25]", "arm.truth.coulomb": "0.01", "plant.stiffness_scale": "0.9",
+             "plant.friction_scale": "2", "plant.payload_step_kg": "0.3", "drives.torque_bits": "12", "sensors.force_bias_N": "[0,0,3]",
+             "sensors.force_noise_N": "0.2", "sensors.wrench_lost_from_s": "1.0", "sensors.wrench_lost_to_s": "2.0",
+             "wall.offset_m": "0.004", "wall.stiffness_Npm": "2e4", "wall.friction": "0.4", "disturbance.bias_N": "[1,2,3]"}
+    arm = tmp_path / "a5.toml"  # says what is known of the links by itself: nothing but the parameters
+    known = "[[known_bodies]]\nmass = 0.0\n" * 5
+    arm.write_text((ROOT / "config/arms/a5.toml").read_text().replace("[truth]\n", f"{known}\n[truth]\n"))
+    (tmp_path / "one").mkdir(), (tmp_path / "other").mkdir()
+    common = ("--config", "press_known", "--arm", str(arm))
+    one, plant_one = halves(tmp_path / "one", *common)
+    other, plant_other = halves(tmp_path / "other", *common, *(f"--set={key}={value}" for key, value in moved.items()))
+    assert one.read_text() == other.read_text()
+    assert plant_one.read_text() != plant_other.read_text()
+
+
+def test_the_halves_hold_nothing_of_each_other_and_are_read_back_unchanged(tmp_path):
+    controller, plant = halves(tmp_path, "--config", "press_known", "--set", "control.coulomb_known=0.5")
+    knows, is_so = tomllib.loads(controller.read_text()), tomllib.loads(plant.read_text())
+    assert not set(TRUTHS) & set(knows) and not {"truth", "bodies", "coulomb", "p_true"} & set(knows["arm"])
+    assert set(knows["wall"]) == {"present", "point_m", "normal"}
+    assert set(knows["sensors"]) == {"wrench", "encoder_bits", "velocity_filter_hz", "force_range_N"}
+    assert knows["arm"]["coulomb_nominal"] == [0.15, 0.15, 0.1, 0.05, 0.025]  # the share that is declared as known
+    assert not {"control", "force", "limits", "checks"} & set(is_so) and "legs" not in is_so["reference"]
+    assert not {"p_nom", "p_lo", "p_hi", "param_names"} & set(is_so["arm"])
+    again = tmp_path / "again.toml"
+    assert run("--config", str(controller), "--write-controller", str(again)) == (0, "")
+    assert again.read_text() == controller.read_text()
+
+
+def test_the_shipped_arms_mean_what_they_meant_before_the_truth_had_its_place(tmp_path):
+    """tests/config/data/a5.toml is the old form, keys of the truth among the others."""
+    old, new = tmp_path / "old.toml", tmp_path / "new.toml"
+    assert run("--arm", str(DATA / "a5.toml"), "--write", str(old)) == run("--arm", "a5", "--write", str(new)) == (0, "")
+    assert old.read_text() == new.read_text()
+
+
+@pytest.mark.parametrize(("key", "place", "value"), [("p_true", "p", [0.6, 0.1, 0.1, 0.5, 0.3, 0.4]),
+                                                     ("coulomb", "coulomb", [0.1, 0.2, 0.1, 0.2, 0.1])])
+def test_the_old_keys_of_the_truth_are_still_set(key, place, value, tmp_path):
+    out = tmp_path / "effective.toml"
+    for arm in ("a5", str(DATA / "a5.toml")):
+        assert run("--arm", arm, "--set", f"arm.{key}={value}", "--write", str(out)) == (0, "")
+        assert tomllib.loads(out.read_text())["arm"]["truth"][place] == value
+
+
+def test_a_truth_in_both_places_is_refused(tmp_path):
+    arm = tmp_path / "a5.toml"
+    arm.write_text(ARM + "\n[truth]\np = [0.7, 0.15, 0.12, 0.55, 0.4, 0.5]\n")
+    assert "arm.p_true: given twice; it is truth.p now" in refused("--arm", str(arm))
+    arm.write_text(ARM + "\n[truth]\ncoulomb = 0.1\n")
+    assert f"{arm}:{line_of(ARM, 'coulomb = ')}: arm.coulomb: given twice" in refused("--arm", str(arm))
+
+
+def test_bodies_beside_nominal_values_move_with_the_truth(tmp_path):
+    """A file that says what one knows, and a truth that is all that differs: m2 is a rod of 0.35 m."""
+    arm, out = tmp_path / "arm.toml", tmp_path / "effective.toml"
+    text = changed(ARM, "p_true = [0.7, 0.15, 0.12, 0.55, 0.4, 0.5]", "").split("[[bodies]]")
+    assert "p_true" not in "".join(text)
+    arm.write_text("[[bodies]]".join(text))  # the bodies are those at p_nom now
+    assert run("--arm", str(arm), "--write", str(out)) == (0, "")
+    nominal = tomllib.loads(out.read_text())["arm"]
+    assert nominal["truth"]["p"] == nominal["p_nom"]
+    arm.write_text("[[bodies]]".join(text) + "\n[truth]\np = [0.9, 0.05, 0.05, 0.3, 0.2, 0.0]\n")
+    assert run("--arm", str(arm), "--write", str(out)) == (0, "")
+    true = tomllib.loads(out.read_text())["arm"]
+    assert true["truth"]["bodies"][1]["mass"] == pytest.approx(nominal["truth"]["bodies"][1]["mass"] + 0.5)
+    assert true["truth"]["bodies"][2] == nominal["truth"]["bodies"][2]
+    assert true["p_nom"] == nominal["p_nom"]

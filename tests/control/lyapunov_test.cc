@@ -14,12 +14,13 @@
 #include "reed/core/model/dynamics.h"
 #include "reed/core/model/regressor.h"
 #include "reed/tests/support/arms.h"
+#include "reed/tests/support/model_arm.h"
 
 namespace reed {
 namespace {
 
 constexpr int N = 5, P = 6;
-using Arm = model::ArmModel<N, P>;
+using Arm = test::ModelArm<N, P>;
 using VecN = model::Vec<N>;
 using VecP = model::Vec<P>;
 using MatN = model::Mat<N, N>;

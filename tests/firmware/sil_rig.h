@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "reed/bus/codec/messages.h"
+#include "reed/config/schema/halves.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/firmware/cycle/cycle_base.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
@@ -66,10 +67,10 @@ class SilRig {
 
   explicit SilRig(const Scenario& scenario, bool enable = true)
       : scenario_(scenario),
-        body_(scenario_),
-        endpoint_(scenario_, wire_.plant, body_, truth_),
+        body_(PlantHalf(scenario_)),
+        endpoint_(PlantHalf(scenario_), wire_.plant, body_, truth_),
         transport_(wire_.controller, [this] { LetPlantWork(); }),
-        cycle_(MakeCycle(scenario_, transport_, enable)) {}
+        cycle_(MakeCycle(ControllerHalf(scenario_), transport_, enable)) {}
 
   /// One cycle; what happened is in snapshot() and truth().
   CycleStatus Run(const LoopState& loop = {}) {

@@ -84,7 +84,7 @@ void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vect
       throw CaseError("--at: expected " + std::to_string(arm.dof()) + " angles in rad");
     motors = Eigen::Map<const Eigen::VectorXd>(q.data(), std::ssize(q));
   }
-  plant::ArmModes bent(arm, PlantConfig{}, motors);
+  plant::ArmModes bent(TrueOf(arm), PlantModelConfig{}, motors);
   bent.Load(Eigen::Vector3d::Zero(), true);
   Json result;
   result["arm"] = arm.name;

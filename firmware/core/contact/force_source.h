@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 
 namespace reed::strategy {
 

@@ -2,7 +2,7 @@
 // set-up.
 #pragma once
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/law/robust_update.h"
 #include "reed/core/law/unknown_force.h"
 #include "reed/core/model/arm_model.h"
@@ -22,7 +22,7 @@ struct Gains {
   double friction_speed;                                             // v_s, rad/s
   bool subtract_observer;
 
-  Gains(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
+  Gains(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm) {
     const ControlConfig& c = scenario.control;
     K_d = Eigen::Map<const model::Vec<N>>(c.K_d.data());
     Lambda = Eigen::Map<const model::Vec<N>>(c.Lambda.data());
@@ -50,12 +50,12 @@ struct Gains {
   }
 
  private:
-  void Friction(const ArmDescription& description, const ControlConfig& c, const model::ArmModel<N, P>& arm) {
+  void Friction(const NominalArm& description, const ControlConfig& c, const model::ArmModel<N, P>& arm) {
     constexpr double kBox = 0.05;  // of the torque limit
     kappa_max = kBox * arm.torque_limit;
     kappa_0.setZero();
     if (!description.coulomb_Nm.empty())
-      kappa_0 = c.coulomb_known * Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
+      kappa_0 = Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
     Gamma_c_known = c.Gamma_friction * K_d;  // joints that are damped more learn larger torques
     Gamma_c_unknown =
         c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : Gamma_c_known;  // two integrators would fight

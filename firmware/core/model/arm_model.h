@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/controller/nominal_arm.h"
 #include "reed/core/model/fixed_array.h"
 #include "reed/core/model/mass_moments.h"
 
@@ -53,7 +53,7 @@ struct ArmModel {
   FixedArray<UnitShape, N*(P + 1)> shape;
   FixedArray<int, N + 1> first_shape;
   Mat<N, P> viscous;  // F_v = diag(viscous p)
-  Vec<P> p_true, p_nominal, p_lo, p_hi;
+  Vec<P> p_nominal, p_lo, p_hi;
   int num_parameters;  // columns from here to P are zero
 
   // Drive train and limits; where the description does not say: no inertia, no hardening, everything else
@@ -68,13 +68,13 @@ struct ArmModel {
       carrier;  // the longer member of each link, which carries its weight; -1: the link has none
 
   ArmModel() = default;  // empty: for a target without a heap, whose fields are filled from an image
-  explicit ArmModel(const ArmDescription& arm);
+  explicit ArmModel(const NominalArm& arm);
 
  private:
-  void ReadParameters(const ArmDescription& arm);
-  void ReadBodies(const ArmDescription& arm);
-  void ReadMembers(const ArmDescription& arm);
-  void AddMember(const ArmDescription& arm, Member beam);
+  void ReadParameters(const NominalArm& arm);
+  void ReadBodies(const NominalArm& arm);
+  void ReadMembers(const NominalArm& arm);
+  void AddMember(const NominalArm& arm, Member beam);
 };
 
 namespace internal {
@@ -90,20 +90,10 @@ Vec<N> PerJoint(const std::vector<double>& list, double absent, const char* name
   return Eigen::Map<const Vec<N>>(list.data());
 }
 
-/// What remains of a body after its parameters were taken out; rounding residue of the subtraction counts as
-/// nothing.
-inline MassMoments WithoutResidue(MassMoments rest, const MassMoments& total) {
-  constexpr double kResidue = 1e-13;
-  if (std::abs(rest.m) <= kResidue * std::abs(total.m)) rest.m = 0.0;
-  if (rest.h.norm() <= kResidue * (total.h.norm() + std::abs(total.m))) rest.h.setZero();
-  if (rest.J.norm() <= kResidue * (total.J.norm() + std::abs(total.m))) rest.J.setZero();
-  return rest;
-}
-
 }  // namespace internal
 
 template <int N, int P>
-ArmModel<N, P>::ArmModel(const ArmDescription& arm)
+ArmModel<N, P>::ArmModel(const NominalArm& arm)
     : gravity(arm.gravity_mps2), tool_offset(arm.tool_offset_m) {
   if (arm.dof() != N) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(arm.dof()) +
@@ -130,20 +120,18 @@ ArmModel<N, P>::ArmModel(const ArmDescription& arm)
 }
 
 template <int N, int P>
-void ArmModel<N, P>::ReadParameters(const ArmDescription& arm) {
+void ArmModel<N, P>::ReadParameters(const NominalArm& arm) {
   num_parameters = arm.num_parameters();
   if (num_parameters > P) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(num_parameters) +
                                 " parameters, the model is built for at most " + std::to_string(P));
   }
   viscous.setZero();
-  p_true.setZero();
   p_nominal.setZero();
   p_lo.setZero();
   p_hi.setZero();
   for (int k = 0; k < num_parameters; ++k) {
-    const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
-    p_true(k) = parameter.truth;
+    const NominalParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
     p_nominal(k) = parameter.nominal;
     p_lo(k) = parameter.lo;
     p_hi(k) = parameter.hi;
@@ -151,29 +139,30 @@ void ArmModel<N, P>::ReadParameters(const ArmDescription& arm) {
   }
 }
 
-/// Known part of a body = its total minus truth times unit of every parameter.
+/// The units of the parameters, then what is known of each link without them.
 template <int N, int P>
-void ArmModel<N, P>::ReadBodies(const ArmDescription& arm) {
-  if (static_cast<int>(arm.bodies.size()) != N) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.bodies.size()) + " bodies for " +
+void ArmModel<N, P>::ReadBodies(const NominalArm& arm) {
+  if (static_cast<int>(arm.known.size()) != N) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.known.size()) + " bodies for " +
                                 std::to_string(N) + " joints");
   }
   int count = 0;
   for (int b = 0; b < N; ++b) {
     first_shape[b] = count;
-    const MassMoments total(arm.bodies[static_cast<std::size_t>(b)]);
-    MassMoments known = total;
     for (int k = 0; k < num_parameters; ++k) {
-      const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
+      const NominalParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
       MassMoments unit;
       for (const ParameterShape& part : parameter.shapes) {
         if (part.body == b) unit.Add(1.0, MassMoments(part.unit));
       }
       if (unit.IsZero()) continue;
       shape[count++] = {k, unit};
-      known.Add(-parameter.truth, unit);
     }
-    known = internal::WithoutResidue(known, total);
+    const KnownMass& rest = arm.known[static_cast<std::size_t>(b)];
+    MassMoments known;
+    known.m = rest.mass_kg;
+    known.h = rest.first_kgm;
+    known.J = rest.second_kgm2;
     if (!known.IsZero()) shape[count++] = {P, known};
   }
   first_shape[N] = count;
@@ -182,7 +171,7 @@ void ArmModel<N, P>::ReadBodies(const ArmDescription& arm) {
 /// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
 /// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
 template <int N, int P>
-void ArmModel<N, P>::ReadMembers(const ArmDescription& arm) {
+void ArmModel<N, P>::ReadMembers(const NominalArm& arm) {
   num_members = 0;
   for (int i = 0; i < N; ++i) {
     carrier[i] = -1;
@@ -197,7 +186,7 @@ void ArmModel<N, P>::ReadMembers(const ArmDescription& arm) {
 }
 
 template <int N, int P>
-void ArmModel<N, P>::AddMember(const ArmDescription& arm, Member beam) {
+void ArmModel<N, P>::AddMember(const NominalArm& arm, Member beam) {
   const int j = num_members++;
   if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
   const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];

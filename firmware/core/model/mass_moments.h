@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/description/arm_structure.h"
 
 namespace reed::model {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/reference/minimum_jerk.h"
 
 namespace reed::reference {

@@ -14,7 +14,7 @@ from reed_tools.record.telemetry_log import load, merge
 from reed_tools.run import bus_choice, hil, progress, scenario, vm
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = ("effective.toml", "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
+OWN_FILES = ("effective.toml", *hil.HALVES.values(), "firmware.txt", "plant.txt", "firmware.lcmlog", "plant.lcmlog", "telemetry.lcmlog", "bus.candump",
              "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 START_S = 60.0  # of the loop's own time, from the first SYNC to an active arm, at most
 
@@ -45,7 +45,8 @@ def run(arguments) -> int:
             checked = Path(scratch, "effective.toml")
             effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked)
             folder = make_folder(arguments, effective["scenario"]["name"])
-            shutil.copy(checked, folder)
+            for name in (checked.name, *hil.HALVES.values()):
+                shutil.copy(checked.with_name(name), folder)
         duration_s = effective["scenario"]["duration_s"]
         print(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
               f"{effective['timing']['rate_hz']:g} Hz, {bus}, {arguments.clock} clock", flush=True)

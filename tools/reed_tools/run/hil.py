@@ -17,6 +17,7 @@ STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
 STALL_S = 30.0           # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
+HALVES = {"firmware": "controller.toml", "plant": "plant.toml"}  # what each program may know, beside effective.toml
 
 
 @dataclass
@@ -30,6 +31,10 @@ class Plan:
     most_cycles: int  # more than the scenario and its start can need
     lcm: bool = True  # publish on the LCM network too
     candump: bool = True  # keep every frame
+
+    def half(self, name: str) -> str:
+        half = Path(self.config).with_name(HALVES[name])
+        return str(half) if half.exists() else self.config
 
     def log(self, name: str) -> Path:
         return Path(self.out) / f"{name}.lcmlog"
@@ -52,7 +57,7 @@ def die_with_parent() -> None:
 
 
 def start(name: str, program: str, plan: Plan, extra: list[str]) -> subprocess.Popen:
-    command = [program, "--config", plan.config, "--bus", plan.bus, "--clock", plan.clock,
+    command = [program, "--config", plan.half(name), "--bus", plan.bus, "--clock", plan.clock,
                "--log", str(plan.log(name)), *([] if plan.lcm else ["--no-lcm"]), *extra]
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the two in order.
