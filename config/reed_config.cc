@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     Write(write_path, reed::EffectiveToml(checked));
     Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));
     Write(plant_path, reed::ToToml(reed::PlantHalf(checked)));
-  } catch (const reed::ConfigError& error) {
+  } catch (const std::exception& error) {  // ConfigError, or what the libraries below it refuse
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

@@ -3,8 +3,11 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "reed/config/schema/text_limits.h"
 
 namespace reed {
 namespace {
@@ -12,6 +15,8 @@ namespace {
 std::string ReadWhole(const std::string& path) {
   std::error_code ec;
   if (!std::filesystem::is_regular_file(path, ec)) throw ConfigError(path + ": no such file");
+  if (std::filesystem::file_size(path, ec) > kLargestFile_bytes || ec)
+    throw ConfigError(path + ": larger than " + std::to_string(kLargestFile_bytes >> 20U) + " MiB, no configuration");
   std::ifstream in(path);
   if (!in) throw ConfigError(path + ": cannot be read");
   std::ostringstream text;
@@ -39,8 +44,13 @@ void ConvertValue(const nlohmann::json& json, Insert insert) {
       insert(json.get<bool>());
       break;
     case nlohmann::json::value_t::number_integer:
-    case nlohmann::json::value_t::number_unsigned:
       insert(json.get<std::int64_t>());
+      break;
+    case nlohmann::json::value_t::number_unsigned:  // of 64 bits: TOML's integers have a sign
+      if (json.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+        insert(json.get<std::int64_t>());
+      else
+        insert(json.get<double>());
       break;
     case nlohmann::json::value_t::number_float:
       insert(json.get<double>());
@@ -72,6 +82,25 @@ std::size_t LineOfByte(const std::string& text, std::size_t byte) {
              text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
 }
 
+static_assert(kDeepestNesting == 64);
+constexpr const char* kTooDeep = "nested deeper than 64 levels, no configuration";
+
+toml::table ParseJson(const std::string& path, const std::string& text) {
+  try {
+    const auto not_too_deep = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+      if (depth > kDeepestNesting) throw ConfigError(path + ": " + kTooDeep);
+      return true;
+    };
+    const nlohmann::json json = nlohmann::json::parse(text, not_too_deep);
+    if (!json.is_object()) throw ConfigError(path + ":1: expected an object {...}");
+    return ToTomlTable(json);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw ConfigError(path + ":" + std::to_string(LineOfByte(text, error.byte)) + ": not JSON");
+  } catch (const nlohmann::json::exception& error) {
+    throw ConfigError(path + ": " + error.what());
+  }
+}
+
 /// First line on which a JSON text writes the last name of a key such as "bodies[1].mass".
 std::size_t LineOfKey(const std::string& text, const std::string& key) {
   std::string name = key.substr(0, key.find('['));
@@ -96,14 +125,12 @@ Document Document::Load(const std::string& path) {
   doc.path_ = path;
   const std::string text = ReadWhole(path);
   if (path.ends_with(".json")) {
-    try {
-      doc.root_ = ToTomlTable(nlohmann::json::parse(text));
-    } catch (const nlohmann::json::parse_error& error) {
-      throw ConfigError(path + ":" + std::to_string(LineOfByte(text, error.byte)) + ": not JSON");
-    }
+    doc.root_ = ParseJson(path, text);
     doc.json_texts_.emplace_back(path, text);
     return doc;
   }
+  if (const std::size_t line = LineOfDeepKey(text); line > 0)
+    throw ConfigError(path + ":" + std::to_string(line) + ": " + kTooDeep);
   try {
     doc.root_ = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
@@ -120,8 +147,9 @@ void Document::Graft(const std::string& section, Document&& other) {
 
 void Document::Override(const std::string& assignment, const std::string& typed) {
   const auto refuse = [&](const std::string& problem) {
-    throw ConfigError("--set " + assignment + ": " + problem);
+    throw ConfigError("--set " + assignment.substr(0, kLongestName) + ": " + problem);
   };
+  if (LineOfDeepKey(assignment) > 0) refuse(kTooDeep);
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) refuse("expected SECTION.KEY=VALUE");
   const std::string dotted = assignment.substr(0, equals);
@@ -138,7 +166,8 @@ void Document::Override(const std::string& assignment, const std::string& typed)
     std::size_t index = array.size();
     const auto end = std::from_chars(part.data(), part.data() + part.size(), index);
     if (end.ec != std::errc{} || end.ptr != part.data() + part.size() || index >= array.size())
-      refuse("no entry '" + part + "'; allowed: 0 ... " + std::to_string(array.size() - 1));
+      refuse("no entry '" + part + "'; " +
+             (array.empty() ? "the list is empty" : "allowed: 0 ... " + std::to_string(array.size() - 1)));
     return index;
   };
   const std::vector<std::string> parts = SplitPath(dotted);

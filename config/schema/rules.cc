@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/text_limits.h"
 
 namespace reed {
 namespace {
@@ -60,6 +61,11 @@ class Rules {
   void BoxHoldsStartAndTruth() const {
     InBox("control.p_initial", "start", s_.control.p_initial);
     InBox("plant.p_true", "truth", s_.plant.p_true);
+  }
+
+  void NamesAreShort() const {
+    NameIsShort("scenario.name", s_.name);
+    NameIsShort("arm.name", s_.arm.name);
   }
 
   void LawIsKnown() const {
@@ -147,6 +153,9 @@ class Rules {
     // Find where the key was written, so that the line can be named.
     doc_.Fail(const_cast<Document&>(doc_).root().at_path(key).node(), key, problem);
   }
+  void NameIsShort(const std::string& key, const std::string& name) const {
+    if (name.size() > kLongestName) Fail(key, "longer than " + std::to_string(kLongestName) + " bytes");
+  }
   void PerJoint(const std::string& key, const std::vector<double>& list, bool needed) const {
     if (list.empty() && needed) Fail(key, "missing; one number per joint");
     if (!list.empty() && list.size() != s_.arm.dh.size())
@@ -177,6 +186,7 @@ class Rules {
 
 void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   const Rules rules(doc, scenario);
+  rules.NamesAreShort();
   rules.ArmIsComplete();
   rules.SizesOfPlant();
   rules.StartInsideLimits();

@@ -356,3 +356,52 @@ def test_bodies_beside_nominal_values_move_with_the_truth(tmp_path):
     assert true["truth"]["bodies"][1]["mass"] == pytest.approx(nominal["truth"]["bodies"][1]["mass"] + 0.5)
     assert true["truth"]["bodies"][2] == nominal["truth"]["bodies"][2]
     assert true["p_nom"] == nominal["p_nom"]
+
+
+DEEP = {"json": "[" * 30000 + "]" * 30000, "toml": "a" + ".a" * 40000 + " = 1\n"}
+
+
+@pytest.mark.parametrize("kind", DEEP)
+def test_depth_has_a_limit(kind, tmp_path):
+    path = tmp_path / f"deep.{kind}"
+    path.write_text('{"dh": ' + DEEP[kind] + "}" if kind == "json" else "# one\n" + DEEP[kind])
+    error = refused("--arm", str(path))
+    assert str(path) in error and "nested deeper than 64 levels" in error
+    assert kind == "json" or f"{path}:2: " in error
+    scenario = tmp_path / "deep2.toml"
+    scenario.write_text(SCENARIO + "\n[x]\ny = {" + DEEP["toml"].strip() + "}\n")
+    assert "nested deeper than 64 levels" in refused("--config", str(scenario))
+    assert "nested deeper than 64 levels" in refused("--set", "arm" + ".a" * 40000 + "=1")
+    assert "nested deeper" in refused("--set", "wall.x={" + "a." * 40000 + "a=1}")
+
+
+def test_dots_in_texts_and_comments_are_no_depth(tmp_path):
+    path = tmp_path / "dots.toml"
+    path.write_text("# " + "." * 500 + "\n" + changed(SCENARIO, "[scenario]\n", "[scenario]\n# \"\n").replace(
+        'description = "', 'description = "' + "." * 200))
+    assert run("--config", str(path)) == (0, "")
+
+
+@pytest.mark.parametrize("text", ['{"dh": 1e999}', '{"dh": 18446744073709551616000000}', "[1, 2]", "3", '{"dh": "\ud800"}', '{"\u0000": 1}'])
+def test_odd_json_is_refused_in_one_line(text, tmp_path):
+    path = tmp_path / "odd.json"
+    path.write_bytes(text.encode(errors="surrogatepass"))
+    assert str(path) in refused("--arm", str(path))
+
+
+def test_long_names_and_files_are_refused(tmp_path):
+    assert "no arm" in refused("--arm", "a" * 300) and "no scenario" in refused("--config", "a" * 300)
+    assert "longer than 100" in refused("--set", f"scenario.name='{'a' * 101}'")
+    assert "longer than 1000" in refused("--set", f"scenario.description='{'a' * 1001}'")
+    assert run("--set", f"scenario.name='{'a' * 100}'") == (0, "")
+    assert "control character" in refused("--set", 'scenario.name="one\\ntwo"')
+    assert len(refused("--set", "control.law=" + "x" * 100_000)) < 1100
+    path = tmp_path / "large.toml"
+    path.write_text("# " + "x" * (5 << 20))
+    assert "larger than 4 MiB" in refused("--config", str(path))
+
+
+def test_an_index_into_an_empty_list_is_named_so(tmp_path):
+    path = tmp_path / "none.toml"
+    path.write_text("checks = []\n" + SCENARIO.split("[[checks]]")[0])
+    assert "no entry '0'; the list is empty" in refused("--config", str(path), "--set", "checks.0.limit=1")
