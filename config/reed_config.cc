@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "reed/config/schema/halves.h"
+#include "reed/config/schema/plausibility.h"
 #include "reed/config/schema/scenario_file.h"
 
 namespace {
@@ -15,13 +16,24 @@ void Write(const std::string& path, const std::string& text) {
   if (!(out << text << std::flush)) throw reed::ConfigError(path + ": cannot be written");
 }
 
+void PrintMargins(const std::vector<reed::JointLoop>& loops) {
+  const char* comma = "[";
+  for (const reed::JointLoop& loop : loops) {
+    const reed::LoopMargin margin = reed::MarginOf(loop);
+    std::printf("%s{\"K_d\": %.9g, \"M_ii\": %.9g, \"gain_margin\": %.9g, \"phase_margin_deg\": %.9g}", comma,
+                loop.K_d, loop.inertia_kgm2, margin.gain, margin.phase_deg);
+    comma = ", ";
+  }
+  std::printf("%s]\n", loops.empty() ? "[" : "");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
   std::string scenario = "press_known", write_path, controller_path, plant_path;
   reed::LoadOptions options;
-  bool keys = false, arm_keys = false;
+  bool keys = false, arm_keys = false, margins = false;
   app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
   app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
   app.add_option("--set", options.set, "SECTION.KEY=VALUE, repeatable")->take_all();
@@ -29,6 +41,7 @@ int main(int argc, char** argv) {
   app.add_option("--write-controller", controller_path,
                  "write the controller's half here: nothing of the truth");
   app.add_option("--write-plant", plant_path, "write the plant's half here: nothing of the law");
+  app.add_flag("--margins", margins, "print gain and phase margin of every joint's loop, as JSON");
   app.add_flag("--keys", keys, "print the table of a scenario's keys (config/README.md)");
   app.add_flag("--arm-keys", arm_keys, "print the table of an arm's keys (config/README.md)");
   try {
@@ -45,6 +58,7 @@ int main(int argc, char** argv) {
   }
   try {
     const reed::Scenario checked = reed::LoadScenario(scenario, options);
+    if (margins) PrintMargins(reed::LoopsOf(checked, reed::Load::kStart));
     Write(write_path, reed::EffectiveToml(checked));
     Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));
     Write(plant_path, reed::ToToml(reed::PlantHalf(checked)));

@@ -17,7 +17,8 @@ class ConfigError : public std::runtime_error {
     constexpr std::size_t kLongest = 1000;
     if (text.size() > kLongest) {
       std::size_t end = kLongest;
-      while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a letter
+      while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+        --end;  // not inside a letter
       text = text.substr(0, end) + " ...";
     }
     for (char& c : text)

@@ -8,8 +8,8 @@
 
 namespace reed {
 
-inline constexpr Bound kArmLength{"m", -10.0, 10.0};                             // beyond: millimetres
-inline constexpr Bound kArmAngle{"rad", -6.283185307179586, 6.283185307179586};  // beyond: degrees
+inline constexpr Bound kArmLength{"m", -10.0, 10.0};  // beyond: millimetres
+inline constexpr Bound kArmAngle{"rad", -6.3, 6.3};   // two turns, as people round them; beyond: degrees
 inline constexpr Bound kArmMass{"kg", 0.0, 500.0};
 inline constexpr Bound kArmMoment{"kg·m²", -500.0, 500.0};
 inline constexpr Bound kArmCoulomb{"N·m", 0.0, 1e3};

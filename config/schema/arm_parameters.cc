@@ -27,18 +27,23 @@ std::vector<std::string> ReadNames(Reader& in, const char* key) {
 }
 
 /// What one unit of mass adds to a link when the file gives no shapes: its own com and inertia, scaled.
-ParameterShape MassShape(const ArmDescription& arm, int link) {
+ParameterShape MassShape(const Reader& in, const ArmDescription& arm, int link) {
   const InertialBody& body = arm.bodies[static_cast<std::size_t>(link)];
-  return {link, {1.0, body.com_m, body.inertia_com_kgm2 / body.mass_kg}};
+  const Eigen::Matrix3d inertia = body.inertia_com_kgm2 / body.mass_kg;
+  if (inertia.cwiseAbs().maxCoeff() > kArmMoment.hi)
+    in.Fail("bodies", "body " + std::to_string(link + 1) + ": mass " + ToText(body.mass_kg) +
+                          " kg is too small for its inertia (" + ToShortText(inertia.cwiseAbs().maxCoeff()) +
+                          " m² per kg; allowed: up to " + ToText(kArmMoment.hi) + ")");
+  return {link, {1.0, body.com_m, inertia}};
 }
 
 /// Without a list of parameters every link's mass is one.
-void DefaultParameters(ArmDescription& arm) {
+void DefaultParameters(const Reader& in, ArmDescription& arm) {
   for (int i = 0; i < arm.dof(); ++i) {
     const double mass = arm.bodies[static_cast<std::size_t>(i)].mass_kg;
     if (mass > 0.0)
       arm.parameters.push_back(
-          {"m" + std::to_string(i + 1), mass, mass, 0.0, 2.0 * mass, {MassShape(arm, i)}, {}});
+          {"m" + std::to_string(i + 1), mass, mass, 0.0, 2.0 * mass, {MassShape(in, arm, i)}, {}});
   }
 }
 
@@ -97,7 +102,7 @@ void ShapesOfMasses(Reader& in, ArmDescription& arm) {
   for (int i = 0; i < arm.dof(); ++i) {
     if (arm.bodies[static_cast<std::size_t>(i)].mass_kg <= 0.0)
       in.Fail("param_shapes", "missing, and body " + std::to_string(i + 1) + " has no mass to scale");
-    arm.parameters[static_cast<std::size_t>(i)].shapes.push_back(MassShape(arm, i));
+    arm.parameters[static_cast<std::size_t>(i)].shapes.push_back(MassShape(in, arm, i));
   }
 }
 
@@ -156,7 +161,7 @@ void ReadParameters(Reader& in, Reader& truth, ArmDescription& arm) {
     if (truth.Has("p")) in.Fail("param_names", "missing; one name per entry of truth.p");
     Numbers of_nobody;
     for (const char* key : {"p_nom", "p_lo", "p_hi"}) in.Numbers(key, of_nobody, kArmParameter, "");
-    if (arm.known.empty()) DefaultParameters(arm);
+    if (arm.known.empty()) DefaultParameters(in, arm);
   } else {
     ReadValues(in, truth, names, arm);
     if (!in.Has("param_shapes")) ShapesOfMasses(in, arm);

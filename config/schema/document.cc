@@ -16,7 +16,8 @@ std::string ReadWhole(const std::string& path) {
   std::error_code ec;
   if (!std::filesystem::is_regular_file(path, ec)) throw ConfigError(path + ": no such file");
   if (std::filesystem::file_size(path, ec) > kLargestFile_bytes || ec)
-    throw ConfigError(path + ": larger than " + std::to_string(kLargestFile_bytes >> 20U) + " MiB, no configuration");
+    throw ConfigError(path + ": larger than " + std::to_string(kLargestFile_bytes >> 20U) +
+                      " MiB, no configuration");
   std::ifstream in(path);
   if (!in) throw ConfigError(path + ": cannot be read");
   std::ostringstream text;

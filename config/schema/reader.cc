@@ -70,7 +70,8 @@ void Reader::Text(const char* key, std::string& value, const char*) {
   if (!node->is_string()) Fail(key, "expected a text in quotes");
   value = *node->value<std::string>();
   if (value.size() > kLongestText) Fail(key, "longer than " + std::to_string(kLongestText) + " bytes");
-  if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
+  if (std::any_of(value.begin(), value.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
     Fail(key, "has a control character or a line break");
 }
 

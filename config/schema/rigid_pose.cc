@@ -47,6 +47,21 @@ std::vector<double> HoldingTorque(const ArmStructure& arm, const std::vector<Ine
   return torque;
 }
 
+std::vector<double> InertiaAboutJoints(const std::vector<InertialBody>& bodies, const RigidPose& pose) {
+  std::vector<double> inertia;
+  for (std::size_t i = 0; i < pose.p.size(); ++i) {
+    const Vector3d axis = pose.R[i].col(2);
+    double sum = 0.0;
+    for (std::size_t b = i; b < bodies.size(); ++b) {
+      const Vector3d at = pose.p[b] + pose.R[b] * bodies[b].com_m, turn = pose.R[b].transpose() * axis;
+      sum += bodies[b].mass_kg * axis.cross(at - pose.p[i]).squaredNorm() +
+             turn.dot(bodies[b].inertia_com_kgm2 * turn);
+    }
+    inertia.push_back(sum);
+  }
+  return inertia;
+}
+
 std::vector<double> AnglesFor(const ArmStructure& arm, const Vector3d& tip, std::vector<double> q_rad,
                               double margin_rad) {
   constexpr int kMaxIterations = 500;
@@ -64,8 +79,8 @@ std::vector<double> AnglesFor(const ArmStructure& arm, const Vector3d& tip, std:
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep_rad) step *= kLongestStep_rad / longest;
     for (std::size_t i = 0; i < q_rad.size(); ++i)
-      q_rad[i] = std::clamp(q_rad[i] + step[static_cast<Eigen::Index>(i)], arm.position_min_rad[i] + margin_rad,
-                            arm.position_max_rad[i] - margin_rad);
+      q_rad[i] = std::clamp(q_rad[i] + step[static_cast<Eigen::Index>(i)],
+                            arm.position_min_rad[i] + margin_rad, arm.position_max_rad[i] - margin_rad);
   }
   return {};
 }

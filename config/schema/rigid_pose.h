@@ -24,6 +24,9 @@ Eigen::Matrix3Xd TipJacobian(const RigidPose& pose);
 std::vector<double> HoldingTorque(const ArmStructure& arm, const std::vector<InertialBody>& bodies,
                                   const RigidPose& pose);
 
+/// M_ii of the bodies, without rotors.
+std::vector<double> InertiaAboutJoints(const std::vector<InertialBody>& bodies, const RigidPose& pose);
+
 /// Joint angles near `q_rad` and within the limits that bring the tool point there; empty: none found.
 std::vector<double> AnglesFor(const ArmStructure& arm, const Eigen::Vector3d& tip, std::vector<double> q_rad,
                               double margin_rad);

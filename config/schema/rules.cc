@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/plausibility.h"
+#include "reed/config/schema/rule_context.h"
 #include "reed/config/schema/text_limits.h"
 
 namespace reed {
@@ -11,9 +13,9 @@ namespace {
 constexpr const char* kLaws[] = {
     "separated", "pd", "pd_tuned", "computed_torque", "fixed_nominal", "paper_printed", "paper_corrected"};
 
-class Rules {
+class Rules : public RuleContext {
  public:
-  Rules(const Document& doc, const Scenario& s) : doc_(doc), s_(s) {}
+  using RuleContext::RuleContext;
 
   void SizesOfPlant() const {
     PerJoint("reference.start_rad", s_.reference.start_rad, true);
@@ -100,8 +102,8 @@ class Rules {
                               ToShortText(s_.control.a_force * s_.control.k_p) + " m/(s²·N)");
   }
 
-  /// One sample of delay: K_d + sigma_0max + sigma_1max/phi stays below 0.6 J_m/T, or the switching term
-  /// chatters.
+  /// One sample of delay: the slope of the sliding term, whose bounds belong to a joint with K_d = 10, stays below
+  /// 0.6 J_m/T, or it chatters. The loop without it: CheckPlausibleLaw.
   void NoChatter() const {
     constexpr double kLimit = 0.6;
     for (std::size_t i = 0; i < s_.control.K_d.size(); ++i) {
@@ -110,15 +112,13 @@ class Rules {
           s_.control.K_d[i] + scale * (s_.control.sigma0_max + s_.control.sigma1_max / s_.control.phi);
       const double bound = kLimit * s_.arm.rotor_inertia_kgm2[i] * s_.timing.rate_hz;
       if (damping > bound)
-        Fail("control.K_d", "joint " + std::to_string(i + 1) +
-                                ": rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate: " +
+        Fail("control.K_d", Joint(i) + "rule K_d (1 + (sigma0_max + sigma1_max/phi) / 10) <= 0.6 J_m rate: " +
                                 ToShortText(damping) + " is above " + ToShortText(bound) + " N·m·s/rad");
     }
   }
 
   void WallIsMeaningful() const {
-    const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
-    if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
+    if (Pressing() && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
   }
 
   void WallIsWithinReach() const {
@@ -149,10 +149,6 @@ class Rules {
   }
 
  private:
-  [[noreturn]] void Fail(const std::string& key, const std::string& problem) const {
-    // Find where the key was written, so that the line can be named.
-    doc_.Fail(const_cast<Document&>(doc_).root().at_path(key).node(), key, problem);
-  }
   void NameIsShort(const std::string& key, const std::string& name) const {
     if (name.size() > kLongestName) Fail(key, "longer than " + std::to_string(kLongestName) + " bytes");
   }
@@ -177,9 +173,6 @@ class Rules {
   void Present(const std::string& key, const std::vector<double>& list) const {
     if (list.empty()) Fail(key, "missing; a run needs one number per joint");
   }
-
-  const Document& doc_;
-  const Scenario& s_;
 };
 
 }  // namespace
@@ -192,6 +185,7 @@ void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   rules.StartInsideLimits();
   rules.BoxHoldsStartAndTruth();
   rules.WallIsWithinReach();
+  CheckPlausiblePlant(doc, scenario);
   if (!has_law) return;
   rules.SizesOfLaw();
   rules.LawIsKnown();
@@ -202,6 +196,7 @@ void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   rules.WallIsMeaningful();
   rules.ForceIsMeasured();
   rules.BudgetsAddUp();
+  CheckPlausibleLaw(doc, scenario);
 }
 
 }  // namespace reed

@@ -4,6 +4,7 @@
 
 #include "reed/config/schema/bound.h"
 #include "reed/config/schema/scenario.h"
+#include "reed_layout.h"
 
 namespace reed {
 
@@ -46,7 +47,8 @@ void Fields(V& v, SensorData& c) {
   v.Integer("encoder_bits", c.encoder_bits, {"1", 8, 32}, "steps per turn are 2^bits");
   v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 1, 1e5},
            "first-order low pass on the differentiated encoder");
-  v.Number("force_range_N", c.force_range_N, {"N", 1, 1e4}, "the reading saturates here");
+  v.Number("force_range_N", c.force_range_N, {"N", 1, bus::layout::kWrenchForceZ.max},
+           "the reading saturates here");
 }
 
 template <typename V>
@@ -61,7 +63,7 @@ void Fields(V& v, SensorConfig& c) {
   v.Number("wrench_lost_from_s", c.wrench_lost_from_s, {"s", -1, 3600},
            "no wrench frames from here, after the drives were enabled; -1: never");
   v.Number("wrench_lost_to_s", c.wrench_lost_to_s, {"s", -1, 3600},
-           "wrench frames again from here; -1: never");
+           "wrench frames again from here, later than wrench_lost_from_s; -1: never");
 }
 
 /// The part of a wall that the controller believes in.
@@ -135,8 +137,10 @@ template <typename V>
 void Fields(V& v, ControlConfig& c) {
   v.Text("law", c.law,
          "separated | pd | pd_tuned | computed_torque | fixed_nominal | paper_printed | paper_corrected");
-  v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4}, "gain on s (31), per joint");
-  v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500}, "sliding surface (23), per joint");
+  v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4},
+            "gain on s (31), per joint; needed. How to choose it: below");
+  v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500},
+            "sliding surface (23), per joint; needed. How to choose it: below");
   v.Number("Gamma_known", c.Gamma_known, {"1", 0, 1e4}, "adaptation gain of the known-force law (34)");
   v.Number("Gamma_unknown", c.Gamma_unknown, {"1", 0, 1e4}, "adaptation gain of the unknown-force law (39)");
   v.Number("k_p", c.k_p, {"m/(s·N)", 1e-6, 1}, "force loop, proportional (30)");
@@ -175,7 +179,8 @@ void Fields(V& v, LimitConfig& c) {
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
            "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
-  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4}, "measured force magnitude that trips");
+  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, bus::layout::kWrenchForceZ.max},
+           "measured force magnitude that trips");
   v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},
             "measurements up to this age are used as they are");
   v.Integer("stop_age_cycles", c.stop_age_cycles, {"1", 1, 1000},

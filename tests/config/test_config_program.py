@@ -405,3 +405,46 @@ def test_an_index_into_an_empty_list_is_named_so(tmp_path):
     path = tmp_path / "none.toml"
     path.write_text("checks = []\n" + SCENARIO.split("[[checks]]")[0])
     assert "no entry '0'; the list is empty" in refused("--config", str(path), "--set", "checks.0.limit=1")
+
+
+DOES_NOTHING_OR_CANNOT_BE = {
+    "a force that trips": (["force.desired_N=60"], ["force.desired_N: 60 N is not below limits.contact_force_N = 60 N"]),
+    "an end before the start": (["force.end_s=0.2"], ["force.end_s: 0.2 s is not after force.start_s = 0.3 s"]),
+    "a slide without a frequency": (["reference.legs.1.frequency_hz=0"], ["reference.legs.1.frequency_hz", "stands still"]),
+    "amplitudes without frequencies": (["disturbance.amplitude_N=[1,0,0]"], ["does nothing without disturbance.frequencies_hz"]),
+    "frequencies without amplitudes": (["disturbance.frequencies_hz=[1]"], ["do nothing without disturbance.amplitude_N"]),
+    "a step at no time": (["disturbance.step_N=[1,0,0]"], ["does nothing without disturbance.step_s"]),
+    "a sensor back before it is lost": (["sensors.wrench_lost_from_s=2", "sensors.wrench_lost_to_s=1"],
+                                        ["sensors.wrench_lost_to_s: 1 s is not after wrench_lost_from_s = 2 s", "-1 for never"]),
+    "a sensor back that never left": (["sensors.wrench_lost_to_s=1"], ["does nothing without sensors.wrench_lost_from_s"]),
+    "a wall that is never met": (["wall.point_m=[0.4,0,0.06]"], ["wall.point_m: the wall is never met", "0.027 m"]),
+    "masses in grams": (["arm.bodies.4.mass=120"], ["reference.start_rad: joint 2", "473", "its limit is 40 N·m (masses are in kg)"]),
+    "a torque that no command carries": (["arm.torque_limit=2048"], ["arm.torque_limit: joint 1: 2048 N·m is not below the 2048 N·m"]),
+    "a speed that no frame carries": (["arm.speed_limit=64"], ["arm.speed_limit: joint 1: 64 rad/s is not below the 64 rad/s"]),
+    "a force that no frame carries": (["limits.contact_force_N=4097"], ["limits.contact_force_N", "0.1 ... 4096 N"]),
+    "a sensor whose range no frame carries": (["sensors.force_range_N=4097"], ["sensors.force_range_N", "1 ... 4096 N"]),
+}
+
+
+@pytest.mark.parametrize("case", DOES_NOTHING_OR_CANNOT_BE)
+def test_what_does_nothing_or_cannot_be_is_refused(case):
+    entries, words = DOES_NOTHING_OR_CANNOT_BE[case]
+    error = refused("--config", "press_known", *(f"--set={entry}" for entry in entries))
+    for word in words:
+        assert word.replace("legs.1", "legs") in error.replace("legs.1", "legs").replace("legs[1]", "legs"), error
+
+
+def test_just_inside_is_accepted():
+    for entry in ("force.desired_N=59", "force.end_s=0.4", "wall.point_m=[0.4,0,0.14]", "arm.torque_limit=2047", "arm.speed_limit=63",
+                  "limits.contact_force_N=190", "sensors.force_range_N=4096", "sensors.wrench_lost_from_s=2", "arm.position_max=6.2832"):
+        assert run("--config", "press_known", "--set", entry) == (0, ""), entry
+
+
+def test_a_wall_beside_the_plane_of_a_planar_arm_is_refused():
+    press = ["--set=force.source='unknown'", "--set=force.desired_N=5", "--set=wall.present=true", "--set=wall.point_m=[0.8,0,0.1]"]
+    assert "wall.normal: no joint of this arm moves the tool point along it" in refused(
+        "--config", "joints2", *press, "--set=wall.normal=[0,1,0]")
+
+
+def test_a_mass_too_small_for_its_inertia_is_refused_before_it_is_written():
+    assert "body 7: mass 1e-09 kg is too small for its inertia" in refused("--config", "joints7", "--set", "arm.bodies.6.mass=1e-9")

@@ -157,7 +157,9 @@ def parameters_outside_box(run: RunData):
 def estimate_thirds(of: RunData) -> np.ndarray:
     """Means of every estimate over the three thirds of the run, p as a share of its box, sigma of its bound."""
     low, high = (np.array(side) for side in zip(*of.boxes))
-    estimates = np.hstack([of.signals.p_hat / (high - low), of.signals.sigma / np.array(of.sigma_limits)])
+    room = np.hstack([high - low, of.sigma_limits])
+    estimates = np.hstack([of.signals.p_hat, of.signals.sigma])
+    estimates = np.divide(estimates, room, out=np.zeros_like(estimates), where=room > 0.0)  # what has no room does not drift
     third = len(estimates) // 3
     return np.array([estimates[k * third:(k + 1) * third].mean(axis=0) for k in range(3)])
 
