@@ -266,7 +266,7 @@ def test_bad_input_is_one_line_and_status_2(reed, tmp_path, argv, told):
     ("draw = 3\n" + HEAD.format(scenario="x"), "draw: expected"),
     ("draw = [3]\n" + HEAD.format(scenario="x"), "draw: expected"),
     ("set = 'a'\n" + HEAD.format(scenario="x"), "set: expected a table"),
-    (HEAD.format(scenario="x") + "[set]\nwall.friction = 0.2\n", 'in quotes, like "wall.friction" = 0.2'),
+    (HEAD.format(scenario="x") + "[set]\nwall.friction = 0.2\n", 'quotes, like "wall.friction" = 0.2'),
     (HEAD.format(scenario="x").replace('"small"', "3"), "campaign.name = 3: expected text"),
     (HEAD.format(scenario="x").replace('"small"', r'"a\u0007"'), "campaign.name"),
     (HEAD.format(scenario="x").replace('"x"', "[1]"), "campaign.scenario"),
