@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/schema/halves.h"
 
 namespace reed::bench {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "reed/bench/inputs.h"
-#include "reed/config/schema/scenario_file.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/controller.h"
 #include "reed/firmware/setup/settings.h"
 
@@ -14,7 +14,7 @@ namespace reed::bench {
 template <int N, int P>
 class ControlStep {
  public:
-  explicit ControlStep(const Scenario& scenario, const strategy::ExternalLaw* law = nullptr)
+  explicit ControlStep(const ControllerConfig& scenario, const strategy::ExternalLaw* law = nullptr)
       : settings_(Endless(scenario, law)),
         path_(PathFrom(scenario, settings_.arm)),
         controller_(settings_, path_.View(), law) {
@@ -42,7 +42,7 @@ class ControlStep {
   const Controller<N, P>& controller() const noexcept { return controller_; }
 
  private:
-  static Settings<N, P> Endless(const Scenario& scenario, const strategy::ExternalLaw* law) {
+  static Settings<N, P> Endless(const ControllerConfig& scenario, const strategy::ExternalLaw* law) {
     Settings<N, P> settings = SettingsFrom<N, P>(scenario, true);
     settings.duration_s = 1e9;
     if (law != nullptr) settings.law = strategy::LawId::kExternal;
@@ -50,7 +50,7 @@ class ControlStep {
   }
 
   /// Tare, enable, and go to the end of the plan.
-  void Start(const Scenario& scenario) {
+  void Start(const ControllerConfig& scenario) {
     constexpr int kEnabling = 200;
     Measurement<N> ready = measured_.front();
     ready.force.setZero();

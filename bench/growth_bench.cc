@@ -6,6 +6,6 @@
 int main(int argc, char** argv) {
   constexpr int N = REED_BENCH_JOINTS;
   const reed::bench::Stopwatch watch(argc, argv);
-  reed::bench::ControlStep<N, N> step(reed::bench::Swing(N));
+  reed::bench::ControlStep<N, N> step(reed::ControllerHalf(reed::bench::Swing(N)));
   watch.Measure("step_" + std::to_string(N), [&](int k) { reed::bench::Keep(step.Run(k)); });
 }

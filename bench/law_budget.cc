@@ -19,7 +19,8 @@
 
 #include "reed/bench/control_step.h"
 #include "reed/bench/offender.h"
-#include "reed/config/schema/config_error.h"
+#include "reed/config/controller/load_controller_config.h"
+#include "reed/config/description/config_error.h"
 #include "reed/firmware/law_plugin/law_plugin.h"
 #include "reed/rt/heap_guard.h"
 
@@ -186,7 +187,7 @@ void SilenceTheLaw() {
   dup2(nowhere, STDOUT_FILENO);
 }
 
-void Prove(const Scenario& scenario, const strategy::ExternalLaw& law) {
+void Prove(const ControllerConfig& scenario, const strategy::ExternalLaw& law) {
   const bool runs = InChild("exceptions", [&] {
     Step step(scenario, &law);
     for (int k = 0; k < kSteps; ++k) step.Run(k);
@@ -206,7 +207,7 @@ void Prove(const Scenario& scenario, const strategy::ExternalLaw& law) {
 int Run(int argc, char** argv) {
   const bool counting = argc > 2 && std::strcmp(argv[1], "--count") == 0;
   const std::string spec = argv[counting ? 2 : 1];
-  const Scenario scenario = LoadScenario("press_known");
+  const ControllerConfig scenario = LoadControllerConfig("press_known");
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(spec, scenario);
   g_library = std::filesystem::absolute(spec.substr(0, spec.find(':')));
   PrepareBacktraces();

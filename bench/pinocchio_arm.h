@@ -5,7 +5,7 @@
 #include <pinocchio/algorithm/regressor.hpp>
 #include <pinocchio/multibody.hpp>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/arm_description.h"
 
 namespace reed::bench {
 

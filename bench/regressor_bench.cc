@@ -1,6 +1,7 @@
 // The regressor Y(q, qd, v, v_dot) of a5 and a7, with the kinematics it needs.
 #include "reed/bench/inputs.h"
 #include "reed/config/schema/arm_file.h"
+#include "reed/config/schema/halves.h"
 #include "reed/core/model/regressor.h"
 #include "reed/firmware/setup/arm_model.h"
 
@@ -9,7 +10,7 @@ namespace {
 
 template <int N, int P>
 void Run(const Stopwatch& watch, const char* arm_name) {
-  const model::ArmModel<N, P> arm = model::ArmModelFrom<N, P>(LoadArm(arm_name));
+  const model::ArmModel<N, P> arm = model::ArmModelFrom<N, P>(NominalOf(LoadArm(arm_name)));
   const Inputs<N> inputs;
   model::Kinematics<N> kin;
   model::Regressor<N, P> regressor;

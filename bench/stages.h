@@ -14,7 +14,7 @@ namespace reed::bench {
 template <int N, int P>
 class Stages {
  public:
-  explicit Stages(const Scenario& scenario)
+  explicit Stages(const ControllerConfig& scenario)
       : arm_(model::ArmModelFrom<N, P>(scenario.arm)),
         gains_(strategy::GainsFrom<N, P>(scenario.control, scenario.arm, arm_, strategy::LawId::kSeparated)),
         law_(strategy::LawBank<N, P>::Get(strategy::LawId::kSeparated)),

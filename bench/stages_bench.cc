@@ -2,10 +2,11 @@
 #include "reed/bench/codec_cycle.h"
 #include "reed/bench/control_step.h"
 #include "reed/bench/stages.h"
+#include "reed/config/controller/load_controller_config.h"
 
 int main(int argc, char** argv) {
   const reed::bench::Stopwatch watch(argc, argv);
-  const reed::Scenario scenario = reed::LoadScenario("press_known");
+  const reed::ControllerConfig scenario = reed::LoadControllerConfig("press_known");
   reed::bench::Stages<5, 7> stages(scenario);
   watch.Measure("kinematics", [&](int k) { stages.Kinematics(k); });
   watch.Measure("static_deflection", [&](int k) { stages.StaticDeflection(k); });

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "reed/bus/transport/open_transport.h"
-#include "reed/config/schema/scenario_file.h"
+#include "reed/config/plant/load_plant_config.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
 #include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/record/publisher.h"
@@ -35,7 +35,7 @@ class StillBody final : public ArmBody {
 };
 
 int Run(const std::string& bus, int core) {
-  Scenario scenario = LoadScenario("press_known");
+  PlantConfig scenario = LoadPlantConfig("press_known");
   scenario.timing.plant_cpu = core;
   const std::atomic<bool>& stop = rt::StopFlag();
   StillBody body;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "reed/bench/control_step.h"
+#include "reed/config/controller/load_controller_config.h"
 #include "reed/firmware/cycle/fill.h"
 #include "reed/firmware/record/recorder.h"
 
@@ -41,7 +42,7 @@ void Record(ControlStep<5, 7>& step, const std::array<bus::Frame, kFrames>& fram
 }
 
 int Run(const std::string& folder) {
-  ControlStep<5, 7> step(LoadScenario("press_known"));
+  ControlStep<5, 7> step(LoadControllerConfig("press_known"));
   Keep(step.Run(0));
   telemetry::SnapshotRing ring(1024);
   telemetry::Recorder recorder(

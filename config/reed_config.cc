@@ -4,22 +4,46 @@
 #include <fstream>
 #include <iostream>
 
+#include "reed/config/schema/halves.h"
+#include "reed/config/schema/plausibility.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/rt/program.h"
 
 namespace {
 
+void Write(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  std::ofstream out(path);
+  if (!(out << text << std::flush)) throw reed::ConfigError(path + ": cannot be written");
+}
+
+void PrintMargins(const std::vector<reed::JointLoop>& loops) {
+  const char* comma = "[";
+  for (const reed::JointLoop& loop : loops) {
+    const reed::LoopMargin margin = reed::MarginOf(loop);
+    std::printf("%s{\"K_d\": %.9g, \"M_ii\": %.9g, \"gain_margin\": %.9g, \"phase_margin_deg\": %.9g}", comma,
+                loop.K_d, loop.inertia_kgm2, margin.gain, margin.phase_deg);
+    comma = ", ";
+  }
+  std::printf("%s]\n", loops.empty() ? "[" : "");
+}
+
 int Run(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
-  std::string scenario = "press_known", write_path;
+  std::string scenario = "press_known", write_path, controller_path, plant_path;
   reed::LoadOptions options;
-  bool keys = false;
+  bool keys = false, arm_keys = false, margins = false;
   app.set_version_flag("--version", REED_VERSION);
   app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
   app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
   app.add_option("--set", options.set, "SECTION.KEY=VALUE, repeatable")->take_all();
   app.add_option("--write", write_path, "write the effective configuration here");
-  app.add_flag("--keys", keys, "print the table of all keys (config/README.md)");
+  app.add_option("--write-controller", controller_path,
+                 "write the controller's half here: nothing of the truth");
+  app.add_option("--write-plant", plant_path, "write the plant's half here: nothing of the law");
+  app.add_flag("--margins", margins, "print gain and phase margin of every joint's loop, as JSON");
+  app.add_flag("--keys", keys, "print the table of a scenario's keys (config/README.md)");
+  app.add_flag("--arm-keys", arm_keys, "print the table of an arm's keys (config/README.md)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -28,16 +52,17 @@ int Run(int argc, char** argv) {
     std::fprintf(stderr, "%s (reed_config --help lists the options)\n", error.what());
     return 2;
   }
-  if (keys) {
-    std::cout << reed::KeyReference();
+  if (keys || arm_keys) {
+    std::cout << (keys ? reed::KeyReference() : reed::ArmKeyReference());
     return 0;
   }
   try {
-    const std::string effective = reed::EffectiveToml(reed::LoadScenario(scenario, options));
-    if (write_path.empty()) return 0;
-    std::ofstream out(write_path);
-    if (!(out << effective)) throw reed::ConfigError(write_path + ": cannot be written");
-  } catch (const reed::ConfigError& error) {
+    const reed::Scenario checked = reed::LoadScenario(scenario, options);
+    if (margins) PrintMargins(reed::LoopsOf(checked, reed::Load::kStart));
+    Write(write_path, reed::EffectiveToml(checked));
+    Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));
+    Write(plant_path, reed::ToToml(reed::PlantHalf(checked)));
+  } catch (const std::exception& error) {  // ConfigError, or what the libraries below it refuse
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

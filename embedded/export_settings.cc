@@ -2,7 +2,7 @@
 // standard output, for a target without files.
 #include <cstdio>
 
-#include "reed/config/schema/scenario_file.h"
+#include "reed/config/controller/load_controller_config.h"
 #include "reed/embedded/settings_image.h"
 #include "reed/firmware/setup/settings.h"
 #include "reed/rt/program.h"
@@ -14,7 +14,7 @@ void Print(double value) {
   std::printf("%.17g,\n", value > 1e300 ? 1e300 : (value < -1e300 ? -1e300 : value));
 }
 
-void Export(const Scenario& scenario) {
+void Export(const ControllerConfig& scenario) {
   Settings<N, P> settings = SettingsFrom<N, P>(scenario, true);
   std::printf("const double kSettings[] = {\n");
   VisitSettings([](double& value) { Print(value); }, settings);
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   return reed::rt::RunProgram("reed_export_settings", [&] {
     reed::LoadOptions options;
     options.set.assign(argv + 2, argv + (argc > 2 ? argc : 2));
-    reed::embedded::Export(reed::LoadScenario(argc > 1 ? argv[1] : "press_known", options));
+    reed::embedded::Export(reed::LoadControllerConfig(argc > 1 ? argv[1] : "press_known", options));
     return 0;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "options.h"
 #include "reed/bus/transport/open_transport.h"
+#include "reed/config/controller/load_controller_config.h"
 #include "reed/firmware/program/control.h"
 #include "reed/firmware/startup/checks.h"
 #include "reed/rt/program.h"
@@ -17,7 +18,7 @@ namespace {
 
 int Run(const Options& options) {
   rt::UseSmallThreadStacks();
-  const Scenario scenario = LoadScenario(options.config, options.load);
+  const ControllerConfig scenario = LoadControllerConfig(options.config, options.load);
   const LoopOptions loop = PlanLoop(scenario);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.control.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reed/config/schema/scenario_file.h"
+#include "reed/config/description/load_options.h"
 #include "reed/firmware/program/control.h"
 
 namespace reed {

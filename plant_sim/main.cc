@@ -14,6 +14,7 @@
 #include "options.h"
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/description/cores.h"
+#include "reed/config/plant/load_plant_config.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
@@ -34,15 +35,15 @@ namespace {
 /// A plant that waits for frames looks so often whether it shall stop.
 constexpr std::int64_t kStopCheck_ns = 60'000'000;
 
-std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const Scenario& scenario,
+std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const PlantConfig& config,
                                        bus::Transport& transport, ArmBody& body, Recorder& recorder,
                                        const rt::HostPauseWatch& watch) {
   if (options.clock == rt::ClockKind::kLockstep) {
-    return std::make_unique<LockstepEndpoint>(scenario, transport, body, recorder);
+    return std::make_unique<LockstepEndpoint>(config, transport, body, recorder);
   }
   EndpointClock clock = EndpointClock::System();
   clock.paused_ns = [&watch] { return watch.paused_ns(); };
-  return std::make_unique<RealtimeEndpoint>(scenario, transport, body, recorder, clock);
+  return std::make_unique<RealtimeEndpoint>(config, transport, body, recorder, clock);
 }
 
 /// Until the endpoint ends by itself, its time is over, or a signal asks; then what already lies on the bus
@@ -60,20 +61,20 @@ void Serve(Endpoint& endpoint, double duration_s, const std::atomic<bool>& stop_
 
 int Run(const Options& options) {
   rt::UseSmallThreadStacks();
-  const Scenario scenario = LoadScenario(options.config, options.load);
+  const PlantConfig config = LoadPlantConfig(options.config, options.load);
   const bool realtime = options.clock == rt::ClockKind::kRealtime;
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
-  FlexibleArmBody body(scenario);
+  FlexibleArmBody body(config);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   RefuseSecondArm(*transport);
   Publisher publisher(
       {options.log, options.lcm, !options.quiet, realtime ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
   rt::HostPauseWatch watch;
   const std::unique_ptr<Endpoint> endpoint =
-      MakeEndpoint(options, scenario, *transport, body, publisher, watch);
+      MakeEndpoint(options, config, *transport, body, publisher, watch);
   std::optional<rt::RealtimeScope> scope;
   if (realtime) {
-    const TimingConfig& timing = scenario.timing;
+    const TimingConfig& timing = config.timing;
     std::vector<std::string> refused{watch.Start(PlantCore(timing), timing.priority + 1)};
     scope.emplace(RealtimeWish(timing));
     for (const std::string& line : scope->report().Complaints()) refused.push_back(line);
@@ -82,7 +83,7 @@ int Run(const Options& options) {
     }
   }
 
-  Say(options.quiet, "arm " + scenario.arm.name + ", clock " + (realtime ? "realtime" : "lockstep") +
+  Say(options.quiet, "arm " + config.arm.name + ", clock " + (realtime ? "realtime" : "lockstep") +
                          ": waiting for SYNC on " + transport->interface());
   Serve(*endpoint, options.duration_s, stop_wanted);
   return Conclude(*endpoint, publisher, options.quiet);

@@ -5,7 +5,7 @@
 
 #include <sched.h>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/description/timing_config.h"
 
 namespace reed {
 

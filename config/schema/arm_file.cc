@@ -1,15 +1,14 @@
 #include "reed/config/schema/arm_file.h"
 
+#include <cmath>
+
 #include "reed/config/schema/arm_bodies.h"
+#include "reed/config/schema/arm_fields.h"
 #include "reed/config/schema/arm_parameters.h"
 #include "reed/config/schema/reader.h"
 
 namespace reed {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
-constexpr Bound kAngle{"rad", -kTwoPi, kTwoPi};  // beyond: degrees
-constexpr Bound kGravity{"m/s²", -30.0, 30.0};
 
 constexpr double kDefaultRange_rad = 2.9;
 constexpr double kDefaultSpeed_radps = 3.0;
@@ -24,7 +23,7 @@ void CheckWithin(Reader& in, const toml::node* where, const std::string& key, do
 }
 
 std::vector<DhRow> ReadDh(Reader& in) {
-  const std::vector<Numbers> rows = ReadRows(in, "dh", 3);
+  const std::vector<Numbers> rows = in.Rows("dh", 3);
   if (rows.empty()) in.Fail("dh", "missing; one row [alpha_{i-1} rad, a_{i-1} m, d_i m] per joint");
   if (rows.size() > static_cast<std::size_t>(kMaxJoints))
     in.Fail("dh", std::to_string(rows.size()) + " joints; allowed: 1 ... " + std::to_string(kMaxJoints));
@@ -32,35 +31,18 @@ std::vector<DhRow> ReadDh(Reader& in) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string name = "dh[" + std::to_string(i) + "]";
     const toml::node* where = in.Get("dh")->as_array()->get(i);
-    CheckWithin(in, where, name, rows[i][0], kAngle, "alpha is in radians");
-    CheckWithin(in, where, name, rows[i][1], kLength, "a is in metres");
-    CheckWithin(in, where, name, rows[i][2], kLength, "d is in metres");
+    CheckWithin(in, where, name, rows[i][0], kArmAngle, "alpha is in radians");
+    CheckWithin(in, where, name, rows[i][1], kArmLength, "a is in metres");
+    CheckWithin(in, where, name, rows[i][2], kArmLength, "d is in metres");
     dh.push_back({rows[i][0], rows[i][1], rows[i][2]});
   }
   return dh;
 }
 
-/// Zero, one or n numbers for n joints.
-void PerJoint(Reader& in, const char* key, Numbers& list, const ArmDescription& arm, const Bound& bound) {
-  in.Numbers(key, list, bound, "");
-  if (list.size() == 1) list.assign(arm.dh.size(), list[0]);
-  if (!list.empty() && list.size() != arm.dh.size())
-    in.Fail(key, std::to_string(list.size()) + " numbers for " + std::to_string(arm.dh.size()) +
-                     " joints; one per joint, or one for all");
-}
-
-void ReadJoints(Reader& in, ArmDescription& arm) {
-  PerJoint(in, "rotor_inertia_reflected", arm.rotor_inertia_kgm2, arm, {"kg·m²", 1e-6, 100.0});
-  PerJoint(in, "joint_stiffness", arm.joint_stiffness_Nmprad, arm, {"N·m/rad", 1.0, 1e9});
-  PerJoint(in, "joint_hardening", arm.joint_hardening_Nmprad3, arm, {"N·m/rad³", 0.0, 1e12});
-  PerJoint(in, "coulomb", arm.coulomb_Nm, arm, {"N·m", 0.0, 1e3});
-  PerJoint(in, "torque_limit", arm.torque_limit_Nm, arm, {"N·m", 1e-3, 1e4});
-  PerJoint(in, "position_min", arm.position_min_rad, arm, kAngle);
-  PerJoint(in, "position_max", arm.position_max_rad, arm, kAngle);
-  PerJoint(in, "speed_limit", arm.speed_limit_radps, arm, {"rad/s", 0.01, 100.0});
+/// What guards a run has a careful default; what the drives are made of has none.
+void CompleteLimits(Reader& in, ArmDescription& arm) {
   if (arm.position_min_rad.size() != arm.position_max_rad.size())
     in.Fail("position_min", "comes with position_max, for the same joints");
-  // What guards a run has a careful default; what the drives are made of has none.
   if (arm.position_min_rad.empty()) arm.position_min_rad.assign(arm.dh.size(), -kDefaultRange_rad);
   if (arm.position_max_rad.empty()) arm.position_max_rad.assign(arm.dh.size(), kDefaultRange_rad);
   if (arm.speed_limit_radps.empty()) arm.speed_limit_radps.assign(arm.dh.size(), kDefaultSpeed_radps);
@@ -69,27 +51,25 @@ void ReadJoints(Reader& in, ArmDescription& arm) {
       in.Fail("position_min", "joint " + std::to_string(i + 1) + ": not below position_max");
 }
 
-void ReadSections(Reader& in, ArmDescription& arm) {
-  ForEachTable(in, "sections", [&](Reader& item, std::size_t) {
-    for (const char* description : {"link", "E", "G", "rho", "A", "I", "J", "od", "t"}) item.Get(description);
-    BeamSection section;
-    const auto must = [&](const char* key, double& value, const Bound& bound) {
-      if (!item.Has(key)) item.Fail(key, std::string("missing; ") + ToText(bound));
-      item.Number(key, value, bound, "");
-    };
-    must("length", section.length_m, {"m", 1e-4, 20.0});
-    must("EA", section.EA_N, {"N", 1.0, 1e12});
-    must("EI", section.EI_Nm2, {"N·m²", 1e-3, 1e10});
-    must("GJ", section.GJ_Nm2, {"N·m²", 1e-3, 1e10});
-    must("rhoA", section.rhoA_kgpm, {"kg/m", 1e-6, 1e4});
-    arm.sections.push_back(section);
-  });
-  if (arm.sections.empty()) return;
-  Numbers members;  // lengths of the straight members, base to tip
+/// Lengths of the straight members, base to tip.
+Numbers MembersOf(const ArmDescription& arm) {
+  Numbers members;
   for (std::size_t i = 0; i < arm.dh.size(); ++i) {
     if (arm.dh[i].d_m != 0.0) members.push_back(std::abs(arm.dh[i].d_m));
     if (i + 1 < arm.dh.size() && arm.dh[i + 1].a_m != 0.0) members.push_back(std::abs(arm.dh[i + 1].a_m));
   }
+  return members;
+}
+
+void ReadSections(Reader& in, ArmDescription& arm) {
+  ForEachTable(in, "sections", [&](Reader& item, std::size_t) {
+    for (const char* description : {"link", "E", "G", "rho", "A", "I", "J", "od", "t"}) item.Get(description);
+    BeamSection section;
+    Fields(item, section);
+    arm.sections.push_back(section);
+  });
+  if (arm.sections.empty()) return;
+  const Numbers members = MembersOf(arm);
   if (members.size() != arm.sections.size())
     in.Fail("sections", std::to_string(arm.sections.size()) + " sections for " +
                             std::to_string(members.size()) +
@@ -101,8 +81,7 @@ void ReadSections(Reader& in, ArmDescription& arm) {
                                                          " m");
 }
 
-void ReadGravity(Reader& in, ArmDescription& arm) {
-  in.Vector("gravity", arm.gravity_mps2, kGravity, "");
+void CheckGravity(Reader& in, const ArmDescription& arm) {
   const double g = arm.gravity_mps2.norm();
   if (g != 0.0 && (g < 1.5 || g > 30.0))
     in.Fail("gravity",
@@ -110,23 +89,46 @@ void ReadGravity(Reader& in, ArmDescription& arm) {
                 "; allowed: 0, or 1.5 ... 30 m/s² (a vector in m/s² in the base frame, not in units of g)");
 }
 
+/// The truth has a place of its own; files from before it keep it among the other keys.
+Reader& PlaceOf(Reader& in, Reader& truth, const char* old_key, const char* key) {
+  if (in.Has(old_key) && truth.Has(key))
+    in.Fail(old_key, std::string("given twice; it is truth.") + key + " now");
+  return in.Has(old_key) ? in : truth;
+}
+
+toml::table* TruthOf(const Document& doc, toml::table& table, const std::string& name) {
+  toml::node* node = table.get("truth");
+  if (node != nullptr && !node->is_table()) doc.Fail(node, name, "expected a section [" + name + "]");
+  return node == nullptr ? nullptr : node->as_table();
+}
+
 }  // namespace
 
 ArmDescription ReadArm(const Document& doc, toml::table& table, const std::string& section) {
-  Reader in(doc, &table, section);
-  for (const char* description : {"units", "convention", "dh_rows", "L", "l1", "l2", "lc", "note"})
-    in.Get(description);
   ArmDescription arm;
-  in.Text("name", arm.name, "");
-  arm.dh = ReadDh(in);
-  ReadGravity(in, arm);
-  in.Vector("tool_offset_in_last_frame", arm.tool_offset_m, kLength, "");
-  in.Vector("tool_offset", arm.tool_offset_m, kLength, "");
-  ReadBodies(in, arm);
-  ReadParameters(in, arm);
-  ReadJoints(in, arm);
+  Reader head(doc, &table, section);
+  arm.dh = ReadDh(head);
+  Reader in(doc, &table, section, arm.dof());
+  const std::string truth_name = head.KeyName("truth");
+  Reader truth(doc, TruthOf(doc, table, truth_name), truth_name, arm.dof());
+  for (const char* read_over :
+       {"units", "convention", "dh", "dh_rows", "L", "l1", "l2", "lc", "note", "truth"})
+    in.Get(read_over);
+  ReadKnownBodies(in, arm);
+  Reader& bodies = PlaceOf(in, truth, "bodies", "bodies");
+  if (bodies.Has("bodies") || arm.known.empty()) ReadBodies(bodies, arm);
+  in.Vector("tool_offset_in_last_frame", arm.tool_offset_m, kArmLength, "");
+  ArmFields(in, arm);
+  CheckGravity(in, arm);
+  CompleteLimits(in, arm);
+  ReadParameters(in, truth, arm);
+  PlaceOf(in, truth, "coulomb", "coulomb");
+  in.PerJoint("coulomb", arm.coulomb_Nm, kArmCoulomb, "");
+  if (arm.coulomb_declared_Nm.empty()) arm.coulomb_declared_Nm = arm.coulomb_Nm;  // there it is declared, too
+  TruthFields(truth, arm);
   ReadSections(in, arm);
   in.RefuseUnknown();
+  truth.RefuseUnknown();
   return arm;
 }
 

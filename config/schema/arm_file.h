@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "reed/config/description/arm_description.h"
-#include "reed/config/schema/config_error.h"
+#include "reed/config/description/config_error.h"
+#include "reed/config/schema/arm_description.h"
 #include "reed/config/schema/document.h"
 
 namespace reed {

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "reed/config/description/number_text.h"
+
 namespace reed {
 
 struct Bound {
@@ -13,10 +15,4 @@ struct Bound {
 
 /// "0.1 ... 3600 s"
 std::string ToText(const Bound& bound);
-/// Shortest decimal that reads back as the same double.
-std::string ToText(double value);
-
-/// Six significant digits: for computed values, which nobody typed.
-std::string ToShortText(double value);
-
 }  // namespace reed

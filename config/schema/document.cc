@@ -3,8 +3,11 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "reed/config/schema/text_limits.h"
 
 namespace reed {
 namespace {
@@ -12,6 +15,9 @@ namespace {
 std::string ReadWhole(const std::string& path) {
   std::error_code ec;
   if (!std::filesystem::is_regular_file(path, ec)) throw ConfigError(path + ": no such file");
+  if (std::filesystem::file_size(path, ec) > kLargestFile_bytes || ec)
+    throw ConfigError(path + ": larger than " + std::to_string(kLargestFile_bytes >> 20U) +
+                      " MiB, no configuration");
   std::ifstream in(path);
   if (!in) throw ConfigError(path + ": cannot be read");
   std::ostringstream text;
@@ -39,8 +45,13 @@ void ConvertValue(const nlohmann::json& json, Insert insert) {
       insert(json.get<bool>());
       break;
     case nlohmann::json::value_t::number_integer:
-    case nlohmann::json::value_t::number_unsigned:
       insert(json.get<std::int64_t>());
+      break;
+    case nlohmann::json::value_t::number_unsigned:  // of 64 bits: TOML's integers have a sign
+      if (json.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+        insert(json.get<std::int64_t>());
+      else
+        insert(json.get<double>());
       break;
     case nlohmann::json::value_t::number_float:
       insert(json.get<double>());
@@ -72,6 +83,25 @@ std::size_t LineOfByte(const std::string& text, std::size_t byte) {
              text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
 }
 
+static_assert(kDeepestNesting == 64);
+constexpr const char* kTooDeep = "nested deeper than 64 levels, no configuration";
+
+toml::table ParseJson(const std::string& path, const std::string& text) {
+  try {
+    const auto not_too_deep = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+      if (depth > kDeepestNesting) throw ConfigError(path + ": " + kTooDeep);
+      return true;
+    };
+    const nlohmann::json json = nlohmann::json::parse(text, not_too_deep);
+    if (!json.is_object()) throw ConfigError(path + ":1: expected an object {...}");
+    return ToTomlTable(json);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw ConfigError(path + ":" + std::to_string(LineOfByte(text, error.byte)) + ": not JSON");
+  } catch (const nlohmann::json::exception& error) {
+    throw ConfigError(path + ": " + error.what());
+  }
+}
+
 /// First line on which a JSON text writes the last name of a key such as "bodies[1].mass".
 std::size_t LineOfKey(const std::string& text, const std::string& key) {
   std::string name = key.substr(0, key.find('['));
@@ -89,6 +119,14 @@ std::vector<std::string> SplitPath(const std::string& dotted) {
   return parts;
 }
 
+/// A key in an error line: what is wrong with it stays in the line, however long it is.
+std::string Short(const std::string& key) {
+  if (key.size() <= kLongestName) return key;
+  std::size_t end = kLongestName;
+  while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xC0U) == 0x80U) --end;  // not inside a letter
+  return key.substr(0, end) + " ...";
+}
+
 }  // namespace
 
 Document Document::Load(const std::string& path) {
@@ -96,14 +134,12 @@ Document Document::Load(const std::string& path) {
   doc.path_ = path;
   const std::string text = ReadWhole(path);
   if (path.ends_with(".json")) {
-    try {
-      doc.root_ = ToTomlTable(nlohmann::json::parse(text));
-    } catch (const nlohmann::json::parse_error& error) {
-      throw ConfigError(path + ":" + std::to_string(LineOfByte(text, error.byte)) + ": not JSON");
-    }
+    doc.root_ = ParseJson(path, text);
     doc.json_texts_.emplace_back(path, text);
     return doc;
   }
+  if (const std::size_t line = LineOfDeepKey(text); line > 0)
+    throw ConfigError(path + ":" + std::to_string(line) + ": " + kTooDeep);
   try {
     doc.root_ = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
@@ -118,10 +154,11 @@ void Document::Graft(const std::string& section, Document&& other) {
   for (auto& text : other.json_texts_) json_texts_.push_back(std::move(text));
 }
 
-void Document::Override(const std::string& assignment) {
+void Document::Override(const std::string& assignment, const std::string& typed) {
   const auto refuse = [&](const std::string& problem) {
-    throw ConfigError("--set " + assignment + ": " + problem);
+    throw ConfigError("--set " + assignment.substr(0, kLongestName) + ": " + problem);
   };
+  if (LineOfDeepKey(assignment) > 0) refuse(kTooDeep);
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) refuse("expected SECTION.KEY=VALUE");
   const std::string dotted = assignment.substr(0, equals);
@@ -138,7 +175,8 @@ void Document::Override(const std::string& assignment) {
     std::size_t index = array.size();
     const auto end = std::from_chars(part.data(), part.data() + part.size(), index);
     if (end.ec != std::errc{} || end.ptr != part.data() + part.size() || index >= array.size())
-      refuse("no entry '" + part + "'; allowed: 0 ... " + std::to_string(array.size() - 1));
+      refuse("no entry '" + part + "'; " +
+             (array.empty() ? "the list is empty" : "allowed: 0 ... " + std::to_string(array.size() - 1)));
     return index;
   };
   const std::vector<std::string> parts = SplitPath(dotted);
@@ -167,26 +205,27 @@ void Document::Override(const std::string& assignment) {
       array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), concrete);
     });
   }
-  overridden_.insert(dotted);
+  overridden_[dotted] = typed.empty() ? dotted : typed;
 }
 
-void Document::Fail(const toml::node* where, const std::string& key, const std::string& problem) const {
+void Document::Fail(const toml::node* where, const std::string& whole_key, const std::string& problem) const {
+  const std::string key = Short(whole_key);
   std::string plain;  // key with [i] written as .i, as --set takes it
-  for (const char c : key) {
+  for (const char c : whole_key) {
     if (c == '[')
       plain += '.';
     else if (c != ']')
       plain += c;
   }
   const bool written = where != nullptr && where->source().path && where->source().begin;
-  for (const std::string& typed : overridden_)
-    if (plain == typed || plain.starts_with(typed + ".") || (!written && typed.starts_with(plain + ".")))
-      throw ConfigError("--set " + typed + ": " + (plain == typed ? "" : key + ": ") + problem);
+  for (const auto& [set, typed] : overridden_)
+    if (plain == set || plain.starts_with(set + ".") || (!written && set.starts_with(plain + ".")))
+      throw ConfigError("--set " + Short(typed) + ": " + (plain == set ? "" : key + ": ") + problem);
   if (written)
     throw ConfigError(*where->source().path + ":" + std::to_string(where->source().begin.line) + ": " + key +
                       ": " + problem);
   for (const auto& [path, text] : json_texts_)
-    throw ConfigError(path + ":" + std::to_string(LineOfKey(text, key)) + ": " + key + ": " + problem);
+    throw ConfigError(path + ":" + std::to_string(LineOfKey(text, whole_key)) + ": " + key + ": " + problem);
   throw ConfigError(path_ + ": " + key + ": " + problem);
 }
 

@@ -4,11 +4,11 @@
 
 #include <toml++/toml.h>
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "reed/config/schema/config_error.h"
+#include "reed/config/description/config_error.h"
 
 namespace reed {
 
@@ -23,7 +23,8 @@ class Document {
 
   /// "SECTION.KEY=VALUE"; array entries by number (arm.sections.0.EI). Throws ConfigError when the path does
   /// not exist and cannot be a key, or the value is not TOML.
-  void Override(const std::string& assignment);
+  /// `typed`: the key as the user wrote it, where it has moved since.
+  void Override(const std::string& assignment, const std::string& typed = "");
 
   toml::table& root() { return root_; }
   const std::string& path() const { return path_; }
@@ -34,7 +35,7 @@ class Document {
  private:
   std::string path_;
   toml::table root_;
-  std::set<std::string> overridden_;  // keys that came from --set, as typed
+  std::map<std::string, std::string> overridden_;  // keys that came from --set, and how they were typed
   std::vector<std::pair<std::string, std::string>>
       json_texts_;  // path, text: JSON nodes carry no line, it is looked up
 };

@@ -13,9 +13,10 @@ std::string FindConfig(const std::string& kind, const std::string& name_or_path)
     return name_or_path;
   const fs::path folder = fs::path(REED_CONFIG_DIR) / kind;
   const fs::path file = folder / (name_or_path + ".toml");
-  if (fs::exists(file)) return file.string();
+  std::error_code ec;
+  if (fs::is_regular_file(file, ec)) return file.string();
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& entry : fs::directory_iterator(folder, ec))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   throw ConfigError(

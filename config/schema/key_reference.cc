@@ -1,11 +1,14 @@
 // The third visitor: lists every key for config/README.md, so the page cannot drift from the reader.
 #include <sstream>
 
+#include "reed/config/schema/arm_fields.h"
 #include "reed/config/schema/scenario_fields.h"
 #include "reed/config/schema/scenario_file.h"
 
 namespace reed {
 namespace {
+
+constexpr const char* kHead = "| key | allowed | default | meaning |\n|---|---|---|---|\n";
 
 class Lister {
  public:
@@ -31,6 +34,22 @@ class Lister {
   void Numbers(const char* key, const std::vector<double>&, Bound bound, const char* doc) {
     Row(key, "list, each " + ToText(bound), "", doc);
   }
+  void Required(const char* key, double, Bound bound, const char* doc) {
+    Row(key, ToText(bound), "needed", doc);
+  }
+  void PerJoint(const char* key, const std::vector<double>&, Bound bound, const char* doc) {
+    Row(key, "one for all joints or one per joint, each " + ToText(bound), "", doc);
+  }
+  void Matrix(const char* key, const Eigen::Matrix3d&, Bound bound, const char* doc) {
+    Row(key, "3×3, each " + ToText(bound), "zeros", doc);
+  }
+  /// A key that is no single value.
+  void Row(const char* key, const std::string& allowed, const std::string& standard, std::string doc) {
+    for (std::size_t at = doc.find('|'); at != std::string::npos; at = doc.find('|', at + 2))
+      doc.replace(at, 1, "\\|");
+    out_ << "| " << section_ << (section_.empty() ? "" : ".") << key << " | " << allowed << " | " << standard
+         << " | " << doc << " |\n";
+  }
   template <typename Enum, std::size_t K>
   void Choice(const char* key, Enum value, const char* const (&names)[K], const char* doc) {
     std::string list;
@@ -39,11 +58,6 @@ class Lister {
   }
 
  private:
-  void Row(const char* key, const std::string& allowed, const std::string& standard, std::string doc) {
-    for (std::size_t at = doc.find('|'); at != std::string::npos; at = doc.find('|', at + 2))
-      doc.replace(at, 1, "\\|");
-    out_ << "| " << section_ << '.' << key << " | " << allowed << " | " << standard << " | " << doc << " |\n";
-  }
   std::ostringstream& out_;
   std::string section_;
 };
@@ -59,12 +73,12 @@ void List(std::ostringstream& out, const char* section) {
 
 std::string KeyReference() {
   std::ostringstream out;
-  out << "| key | allowed | default | meaning |\n|---|---|---|---|\n";
+  out << kHead;
   Scenario head;
   Lister lister(out, "scenario");
   ScenarioFields(lister, head);
   out << "| arm | name in config/arms, path, or the arm's table | | which arm |\n";
-  List<PlantConfig>(out, "plant");
+  List<PlantModelConfig>(out, "plant");
   List<DriveConfig>(out, "drives");
   List<SensorConfig>(out, "sensors");
   List<WallConfig>(out, "wall");
@@ -76,6 +90,37 @@ std::string KeyReference() {
   List<LimitConfig>(out, "limits");
   List<TimingConfig>(out, "timing");
   List<CheckConfig>(out, "checks[]");
+  return out.str();
+}
+
+std::string ArmKeyReference() {
+  std::ostringstream out;
+  out << kHead;
+  ArmDescription arm;
+  InertialBody body;
+  Lister lister(out, ""), truth(out, "truth"), bodies(out, "truth.bodies[]"), shapes(out, "param_shapes[]");
+  lister.Row("dh", "n rows [alpha_(i−1), a_(i−1), d_i]: ±2π rad, ±10 m, ±10 m", "needed",
+             "modified (Craig) Denavit-Hartenberg rows, T_i = Rx(alpha_(i−1)) Tx(a_(i−1)) Rz(θ_i) Tz(d_i), "
+             "all joints "
+             "revolute");
+  ArmFields(lister, arm);
+  lister.Row("param_names", "up to " + std::to_string(kMaxParameters) + " names", "each link's mass",
+             "the uncertain structural parameters p of (28)");
+  lister.Row("p_nom", "one per name, within the box", "truth.p", "what the controller starts from");
+  lister.Row("p_lo", "one per name, " + ToText(kArmParameter), "0", "box of the projection");
+  lister.Row("p_hi", "one per name, not below p_lo", "2 truth.p", "box of the projection");
+  shapes.Row("param", "a name of param_names", "needed",
+             "which parameter; without shapes one parameter per link scales that link");
+  shapes.Row("body", "1 ... n", "needed, or viscous_weights", "which link one unit of the parameter adds to");
+  BodyFields(shapes, body, "inertia_com");
+  shapes.Row("viscous_weights", "n numbers, 0 ... 10⁴ N·m·s/rad per unit", "",
+             "instead of a body: the parameter scales viscous friction");
+  List<KnownMass>(out, "known_bodies[]");
+  List<BeamSection>(out, "sections[]");
+  truth.Row("p", "one per name, " + ToText(kArmParameter), "p_nom",
+            "true parameters (old place: p_true of the arm)");
+  TruthFields(truth, arm);
+  BodyFields(bodies, body, "inertia_about_com");
   return out.str();
 }
 

@@ -1,24 +1,12 @@
 #include "reed/config/schema/reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "reed/config/schema/allowed.h"
+#include "reed/config/schema/text_limits.h"
 
 namespace reed {
-
-std::string ToText(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end.ptr};
-}
-
-std::string ToShortText(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
-  return {buffer, end.ptr};
-}
 
 std::string ToText(const Bound& bound) {
   const std::string unit = std::string(bound.unit) == "1" ? "" : std::string(" ") + bound.unit;
@@ -82,6 +70,10 @@ void Reader::Text(const char* key, std::string& value, const char*) {
   if (node == nullptr) return;
   if (!node->is_string()) Fail(key, "expected a text in quotes");
   value = *node->value<std::string>();
+  if (value.size() > kLongestText) Fail(key, "longer than " + std::to_string(kLongestText) + " bytes");
+  if (std::any_of(value.begin(), value.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
+    Fail(key, "has a control character or a line break");
 }
 
 void Reader::Numbers(const char* key, std::vector<double>& value, Bound bound, const char*) {
@@ -105,6 +97,52 @@ void Reader::Vector(const char* key, Eigen::Vector3d& value, Bound bound, const 
   Numbers(key, numbers, bound, doc);
   if (numbers.size() != 3) Fail(key, "expected three numbers [x, y, z] in " + std::string(bound.unit));
   value = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+}
+
+void Reader::Required(const char* key, double& value, Bound bound, const char* doc) {
+  if (!Has(key)) Fail(key, "missing; allowed: " + ToText(bound));
+  Number(key, value, bound, doc);
+}
+
+void Reader::PerJoint(const char* key, std::vector<double>& value, Bound bound, const char* doc) {
+  Numbers(key, value, bound, doc);
+  const auto joints = static_cast<std::size_t>(joints_);
+  if (value.size() == 1) value.assign(joints, value[0]);
+  if (!value.empty() && value.size() != joints)
+    Fail(key, std::to_string(value.size()) + " numbers for " + std::to_string(joints) +
+                  " joints; one per joint, or one for all");
+}
+
+std::vector<std::vector<double>> Reader::Rows(const char* key, std::size_t width) {
+  toml::node* node = Get(key);
+  std::vector<std::vector<double>> rows;
+  if (node == nullptr) return rows;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) Fail(key, "expected a list of rows of " + std::to_string(width) + " numbers");
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = std::string(key) + "[" + std::to_string(i) + "]";
+    const toml::array* row = (*array)[i].as_array();
+    if (row == nullptr || row->size() != width)
+      doc_.Fail(&(*array)[i], KeyName(name), "expected a row of " + std::to_string(width) + " numbers");
+    std::vector<double> numbers;
+    for (const toml::node& cell : *row) {
+      const auto number = cell.value<double>();
+      if (!number || !std::isfinite(*number)) doc_.Fail(&cell, KeyName(name), "expected a finite number");
+      numbers.push_back(*number);
+    }
+    rows.push_back(numbers);
+  }
+  return rows;
+}
+
+void Reader::Matrix(const char* key, Eigen::Matrix3d& value, Bound bound, const char*) {
+  const std::vector<std::vector<double>> rows = Rows(key, 3);
+  if (rows.empty()) return;
+  if (rows.size() != 3) Fail(key, "expected three rows of three numbers in " + std::string(bound.unit));
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) value(r, c) = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+  if (value.minCoeff() < bound.lo || value.maxCoeff() > bound.hi)
+    Fail(key, "out of range; allowed: " + ToText(bound));
 }
 
 void Reader::ChoiceIndex(const char* key, int& index, const std::vector<std::string>& allowed, const char*) {

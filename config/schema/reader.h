@@ -15,8 +15,8 @@ namespace reed {
 class Reader {
  public:
   /// `table` may be null: an absent section, every field keeps its default.
-  Reader(const Document& doc, toml::table* table, std::string section)
-      : doc_(doc), table_(table), section_(std::move(section)) {}
+  Reader(const Document& doc, toml::table* table, std::string section, int joints = 0)
+      : doc_(doc), table_(table), section_(std::move(section)), joints_(joints) {}
 
   void Number(const char* key, double& value, Bound bound, const char* doc);
   void Integer(const char* key, int& value, Bound bound, const char* doc);
@@ -25,6 +25,14 @@ class Reader {
   void Text(const char* key, std::string& value, const char* doc);
   void Vector(const char* key, Eigen::Vector3d& value, Bound bound, const char* doc);
   void Numbers(const char* key, std::vector<double>& value, Bound bound, const char* doc);
+  /// A number without a default.
+  void Required(const char* key, double& value, Bound bound, const char* doc);
+  /// None, one for all joints, or one per joint.
+  void PerJoint(const char* key, std::vector<double>& value, Bound bound, const char* doc);
+  /// Three rows of three numbers.
+  void Matrix(const char* key, Eigen::Matrix3d& value, Bound bound, const char* doc);
+  /// A list of equally long rows of numbers.
+  std::vector<std::vector<double>> Rows(const char* key, std::size_t width);
 
   /// Enumerations: names[i] is the text of value i.
   template <typename Enum, std::size_t K>
@@ -35,6 +43,7 @@ class Reader {
     value = static_cast<Enum>(index);
   }
 
+  int joints() const { return joints_; }
   bool Has(const char* key) const { return table_ != nullptr && table_->contains(key); }
   toml::node* Get(const char* key);  // marks the key as known
   std::string KeyName(const std::string& key) const { return section_.empty() ? key : section_ + "." + key; }
@@ -52,6 +61,7 @@ class Reader {
   const Document& doc_;
   toml::table* table_;
   std::string section_;
+  int joints_;
   std::vector<std::string> known_;
 };
 

@@ -6,6 +6,9 @@
 
 #include "reed/config/schema/allowed.h"
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/plausibility.h"
+#include "reed/config/schema/rule_context.h"
+#include "reed/config/schema/text_limits.h"
 
 namespace reed {
 namespace {
@@ -13,12 +16,17 @@ namespace {
 constexpr const char* kLaws[] = {
     "separated", "pd", "pd_tuned", "computed_torque", "fixed_nominal", "paper_printed", "paper_corrected"};
 
-class Rules {
+class Rules : public RuleContext {
  public:
-  Rules(const Document& doc, const Scenario& s) : doc_(doc), s_(s) {}
+  using RuleContext::RuleContext;
 
-  void Sizes() const {
+  void SizesOfPlant() const {
     PerJoint("reference.start_rad", s_.reference.start_rad, true);
+    PerParameter("control.p_initial", s_.control.p_initial);
+    PerParameter("plant.p_true", s_.plant.p_true);
+  }
+
+  void SizesOfLaw() const {
     PerJoint("control.K_d", s_.control.K_d, true);
     PerJoint("control.Lambda", s_.control.Lambda, true);
     for (std::size_t i = 0; i < s_.reference.legs.size(); ++i) {
@@ -28,8 +36,6 @@ class Rules {
       if (leg.kind == ReferenceLeg::Kind::kJoint) PerJoint(key + "to_rad", leg.to_rad, true);
       if (leg.kind == ReferenceLeg::Kind::kSine) PerJoint(key + "amplitude_rad", leg.amplitude_rad, true);
     }
-    PerParameter("control.p_initial", s_.control.p_initial);
-    PerParameter("plant.p_true", s_.plant.p_true);
   }
 
   /// A run needs what a drawing of the arm does not: motors, limits, stiffness.
@@ -60,6 +66,11 @@ class Rules {
   void BoxHoldsStartAndTruth() const {
     InBox("control.p_initial", "start", s_.control.p_initial);
     InBox("plant.p_true", "truth", s_.plant.p_true);
+  }
+
+  void NamesAreShort() const {
+    NameIsShort("scenario.name", s_.name);
+    NameIsShort("arm.name", s_.arm.name);
   }
 
   void LawIsKnown() const {
@@ -93,8 +104,8 @@ class Rules {
                               ToShortText(s_.control.a_force * s_.control.k_p) + " m/(s²·N)");
   }
 
-  /// One sample of delay: K_d + sigma_0max + sigma_1max/phi stays below 0.6 J_m/T, or the switching term
-  /// chatters.
+  /// One sample of delay: the slope of the sliding term, whose bounds belong to a joint with K_d = 10, stays below
+  /// 0.6 J_m/T, or it chatters. The loop without it: CheckPlausibleLaw.
   void NoChatter() const {
     constexpr double kLimit = 0.6;
     for (std::size_t i = 0; i < s_.control.K_d.size(); ++i) {
@@ -103,8 +114,7 @@ class Rules {
           s_.control.K_d[i] + scale * (s_.control.sigma0_max + s_.control.sigma1_max / s_.control.phi);
       const double bound = kLimit * s_.arm.rotor_inertia_kgm2[i] * s_.timing.rate_hz;
       if (damping > bound)
-        Fail("control.K_d", "joint " + std::to_string(i + 1) +
-                                ": rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate: " +
+        Fail("control.K_d", Joint(i) + "rule K_d (1 + (sigma0_max + sigma1_max/phi) / 10) <= 0.6 J_m rate: " +
                                 ToShortText(damping) + " is above " + ToShortText(bound) + " N·m·s/rad");
     }
   }
@@ -126,8 +136,10 @@ class Rules {
   }
 
   void WallIsMeaningful() const {
-    const bool pressing = s_.force.source != ForceConfig::Source::kNone && s_.force.desired_N > 0.0;
-    if (pressing && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
+    if (Pressing() && !s_.wall.present) Fail("wall.present", "a desired force needs a wall");
+  }
+
+  void WallIsWithinReach() const {
     if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
     const double reach = s_.arm.reach_m();
     const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
@@ -154,9 +166,8 @@ class Rules {
   }
 
  private:
-  [[noreturn]] void Fail(const std::string& key, const std::string& problem) const {
-    // Find where the key was written, so that the line can be named.
-    doc_.Fail(const_cast<Document&>(doc_).root().at_path(key).node(), key, problem);
+  void NameIsShort(const std::string& key, const std::string& name) const {
+    if (name.size() > kLongestName) Fail(key, "longer than " + std::to_string(kLongestName) + " bytes");
   }
   void PerJoint(const std::string& key, const std::vector<double>& list, bool needed) const {
     if (list.empty() && needed) Fail(key, "missing; one number per joint");
@@ -179,19 +190,21 @@ class Rules {
   void Present(const std::string& key, const std::vector<double>& list) const {
     if (list.empty()) Fail(key, "missing; a run needs one number per joint");
   }
-
-  const Document& doc_;
-  const Scenario& s_;
 };
 
 }  // namespace
 
-void CheckRules(const Document& doc, const Scenario& scenario) {
+void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   const Rules rules(doc, scenario);
+  rules.NamesAreShort();
   rules.ArmIsComplete();
-  rules.Sizes();
+  rules.SizesOfPlant();
   rules.StartInsideLimits();
   rules.BoxHoldsStartAndTruth();
+  rules.WallIsWithinReach();
+  CheckPlausiblePlant(doc, scenario);
+  if (!has_law) return;
+  rules.SizesOfLaw();
   rules.LawIsKnown();
   rules.ForceLimitIsMeasured();
   rules.AgesAreGraded();
@@ -201,6 +214,7 @@ void CheckRules(const Document& doc, const Scenario& scenario) {
   rules.WallIsMeaningful();
   rules.ForceIsMeasured();
   rules.BudgetsAddUp();
+  CheckPlausibleLaw(doc, scenario);
 }
 
 }  // namespace reed

@@ -2,8 +2,9 @@
 // this.
 #pragma once
 
-#include "reed/config/description/scenario.h"
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/scenario.h"
+#include "reed_layout.h"
 
 namespace reed {
 
@@ -13,7 +14,7 @@ inline constexpr const char* kPhaseActions[] = {"count", "hold", "degrade", "fau
 inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine"};
 
 template <typename V>
-void Fields(V& v, PlantConfig& c) {
+void Fields(V& v, PlantModelConfig& c) {
   v.Boolean("flexible_links", c.flexible_links, "links bend; false: rigid links, elastic joints");
   v.Integer("elements_per_link", c.elements_per_link, {"1", 1, 8}, "beam elements per straight member");
   v.Number("damping_ratio", c.damping_ratio, {"1", 0, 0.2}, "structural damping ratio");
@@ -28,7 +29,7 @@ void Fields(V& v, PlantConfig& c) {
            "when it appears, after the drives were enabled");
   v.Numbers(
       "p_true", c.p_true, {"1", -1e3, 1e3},
-      "true parameters instead of the arm's p_true, within their box; bodies and viscous friction follow");
+      "true parameters instead of the arm's truth.p, within their box; bodies and viscous friction follow");
 }
 
 template <typename V>
@@ -39,31 +40,49 @@ void Fields(V& v, DriveConfig& c) {
             "periods without a valid command before the brakes close");
 }
 
+/// What a data sheet says, and so the controller knows.
 template <typename V>
-void Fields(V& v, SensorConfig& c) {
+void Fields(V& v, SensorData& c) {
   v.Boolean("wrench", c.wrench, "a wrist force sensor is fitted");
   v.Integer("encoder_bits", c.encoder_bits, {"1", 8, 32}, "steps per turn are 2^bits");
   v.Number("velocity_filter_hz", c.velocity_filter_hz, {"Hz", 1, 1e5},
            "first-order low pass on the differentiated encoder");
+  v.Number("force_range_N", c.force_range_N, {"N", 1, bus::layout::kWrenchForceZ.max},
+           "the reading saturates here");
   v.Number("force_noise_N", c.force_noise_N, {"N", 0, 100}, "standard deviation per axis");
   v.Number("force_quantum_N", c.force_quantum_N, {"N", 0, 10}, "step of the force reading");
+}
+
+template <typename V>
+void Fields(V& v, SensorConfig& c) {
+  Fields(v, static_cast<SensorData&>(c));
   v.Number("moment_noise_Nm", c.moment_noise_Nm, {"N·m", 0, 100}, "standard deviation per axis");
   v.Number("moment_quantum_Nm", c.moment_quantum_Nm, {"N·m", 0, 10}, "step of the moment reading");
   v.Vector("force_bias_N", c.force_bias_N, {"N", -100, 100},
            "constant error of the force reading, base axes");
-  v.Number("force_range_N", c.force_range_N, {"N", 1, 1e4}, "the reading saturates here");
   v.Number("wrench_lost_from_s", c.wrench_lost_from_s, {"s", -1, 3600},
            "no wrench frames from here, after the drives were enabled; -1: never");
   v.Number("wrench_lost_to_s", c.wrench_lost_to_s, {"s", -1, 3600},
-           "wrench frames again from here; -1: never");
+           "wrench frames again from here, later than wrench_lost_from_s; -1: never");
 }
 
-template <typename V>
-void Fields(V& v, WallConfig& c) {
+/// The part of a wall that the controller believes in.
+template <typename V, typename Wall>
+void BelievedFields(V& v, Wall& c) {
   v.Boolean("present", c.present, "there is a wall");
   v.Vector("point_m", c.point_m, {"m", -10, 10},
            "a point of the surface as the controller believes it, base frame");
   v.Vector("normal", c.normal, {"1", -1, 1}, "outward normal, wall to robot; normalised on reading");
+}
+
+template <typename V>
+void Fields(V& v, BelievedWall& c) {
+  BelievedFields(v, c);
+}
+
+template <typename V>
+void Fields(V& v, WallConfig& c) {
+  BelievedFields(v, c);
   v.Number("offset_m", c.offset_m, {"m", -0.1, 0.1},
            "true surface lies this far along the normal from the believed one");
   v.Number("stiffness_Npm", c.stiffness_Npm, {"N/m", 10, 1e7},
@@ -118,8 +137,10 @@ template <typename V>
 void Fields(V& v, ControlConfig& c) {
   v.Text("law", c.law,
          "separated | pd | pd_tuned | computed_torque | fixed_nominal | paper_printed | paper_corrected");
-  v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4}, "gain on s (31), per joint");
-  v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500}, "sliding surface (23), per joint");
+  v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4},
+            "gain on s (31), per joint; needed. How to choose it: below");
+  v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500},
+            "sliding surface (23), per joint; needed. How to choose it: below");
   v.Number("Gamma_known", c.Gamma_known, {"1", 0, 1e4}, "adaptation gain of the known-force law (34)");
   v.Number("Gamma_unknown", c.Gamma_unknown, {"1", 0, 1e4}, "adaptation gain of the unknown-force law (39)");
   v.Number("k_p", c.k_p, {"m/(s·N)", 1e-6, 1}, "force loop, proportional (30)");
@@ -141,7 +162,7 @@ void Fields(V& v, ControlConfig& c) {
   v.Number("Gamma_friction", c.Gamma_friction, {"1/s", 0, 1e4},
            "adaptation gain of Coulomb friction (49), times K_d");
   v.Number("coulomb_known", c.coulomb_known, {"1", 0, 1},
-           "share of the arm file's Coulomb friction that the controller knows at the start");
+           "share of the true Coulomb friction that the controller knows at the start");
   v.Number("friction_speed_radps", c.friction_speed_radps, {"rad/s", 1e-4, 10},
            "speed at which modelled Coulomb friction is fully developed (48)");
   v.Number("observer_gain", c.observer_gain, {"1/s", 0, 1e3}, "K_o of the momentum observer");
@@ -161,7 +182,7 @@ void Fields(V& v, LimitConfig& c) {
   v.Number("position_margin_rad", c.position_margin_rad, {"rad", 0, 1},
            "distance that references keep from the joint limits; half of it trips");
   v.Number("speed_scale", c.speed_scale, {"1", 0.01, 1}, "of the arm's speed limit");
-  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, 1e4},
+  v.Number("contact_force_N", c.contact_force_N, {"N", 0.1, bus::layout::kWrenchForceZ.max},
            "contact force that trips: magnitude of the tared sensor, or the observed normal force of an arm "
            "that presses without one");
   v.Integer("hold_age_cycles", c.hold_age_cycles, {"1", 0, 100},

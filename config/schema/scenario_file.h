@@ -2,28 +2,32 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "reed/config/description/scenario.h"
-#include "reed/config/schema/config_error.h"
+#include "reed/config/description/config_error.h"
+#include "reed/config/description/load_options.h"
+#include "reed/config/schema/scenario.h"
 
 namespace reed {
 
-struct LoadOptions {
-  std::string arm;               // replaces the scenario's arm: name or path; "" keeps it
-  std::vector<std::string> set;  // "SECTION.KEY=VALUE"
-};
+/// A file with the plant's half alone has no law to be checked.
+enum class Wanted { kWhole, kPlantHalf };
 
 /// Reads a scenario with its arm, applies the overrides, checks every key and every rule between keys.
 /// Throws ConfigError: one line with file, line, key and what is allowed.
-Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options = {});
+Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options = {},
+                      Wanted wanted = Wanted::kWhole);
 
 /// The whole configuration after defaults and overrides, as a scenario file that LoadScenario reads back
 /// unchanged.
 std::string EffectiveToml(const Scenario& scenario);
 
-/// Markdown table of every key with unit, range, default and meaning (config/README.md holds it; a test
+/// One half, as a file that its loader reads back unchanged.
+std::string ToToml(const ControllerConfig& half);
+std::string ToToml(const PlantConfig& half);
+
+/// Markdown tables of every key with unit, range, default and meaning (config/README.md holds them; a test
 /// compares).
 std::string KeyReference();
+std::string ArmKeyReference();
 
 }  // namespace reed

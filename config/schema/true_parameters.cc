@@ -1,26 +1,11 @@
 #include "reed/config/schema/true_parameters.h"
 
+#include "reed/config/schema/known_mass.h"
+
 namespace reed {
-namespace {
-
-/// Inertia of a point mass about the origin, per mass: |c|² 1 - c cᵀ.
-Eigen::Matrix3d Steiner(const Eigen::Vector3d& c) {
-  return c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose();
-}
-
-/// body + share * unit; about the origin all three moments add.
-void Add(InertialBody& body, double share, const InertialBody& unit) {
-  const double m = body.mass_kg + share * unit.mass_kg;
-  const Eigen::Vector3d h = body.mass_kg * body.com_m + share * unit.mass_kg * unit.com_m;
-  const Eigen::Matrix3d J = body.inertia_com_kgm2 + body.mass_kg * Steiner(body.com_m) +
-                            share * (unit.inertia_com_kgm2 + unit.mass_kg * Steiner(unit.com_m));
-  const Eigen::Vector3d c = m > 0.0 ? Eigen::Vector3d(h / m) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  body = {m, c, J - m * Steiner(c)};
-}
-
-}  // namespace
 
 void SetTrueParameters(ArmDescription& arm, const std::vector<double>& p) {
+  if (arm.known.empty()) arm.known = KnownOf(arm);
   for (std::size_t k = 0; k < p.size(); ++k) {
     StructuralParameter& parameter = arm.parameters[k];
     const double change = p[k] - parameter.truth;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/arm_description.h"
 
 namespace reed {
 

@@ -17,6 +17,12 @@ inline toml::array ToToml(const std::vector<double>& numbers) {
 
 inline toml::array ToToml(const Eigen::Vector3d& v) { return toml::array{v.x(), v.y(), v.z()}; }
 
+inline toml::array ToToml(const Eigen::Matrix3d& m) {
+  toml::array out;
+  for (int r = 0; r < 3; ++r) out.push_back(ToToml(Eigen::Vector3d(m.row(r).transpose())));
+  return out;
+}
+
 class Writer {
  public:
   explicit Writer(toml::table& table) : table_(table) {}
@@ -31,6 +37,15 @@ class Writer {
   }
   void Numbers(const char* key, const std::vector<double>& value, Bound, const char*) {
     if (!value.empty()) table_.insert_or_assign(key, ToToml(value));
+  }
+  void Required(const char* key, double value, Bound bound, const char* doc) {
+    Number(key, value, bound, doc);
+  }
+  void PerJoint(const char* key, const std::vector<double>& value, Bound bound, const char* doc) {
+    Numbers(key, value, bound, doc);
+  }
+  void Matrix(const char* key, const Eigen::Matrix3d& value, Bound, const char*) {
+    table_.insert_or_assign(key, ToToml(value));
   }
   template <typename Enum, std::size_t K>
   void Choice(const char* key, Enum value, const char* const (&names)[K], const char*) {

@@ -7,14 +7,14 @@
 namespace reed {
 
 template <int N>
-std::unique_ptr<CycleBase> MakeCycleFor(const Scenario& scenario, bus::Transport& transport,
+std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::Transport& transport,
                                         bool start_wanted, const strategy::ExternalLaw* law);
 
 namespace {
 
 /// The first N of the list that is the arm's number of joints.
 template <int... N>
-std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Scenario& scenario,
+std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const ControllerConfig& scenario,
                                 bus::Transport& transport, bool start_wanted,
                                 const strategy::ExternalLaw* law) {
   std::unique_ptr<CycleBase> cycle;
@@ -29,7 +29,7 @@ std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Scenario
 
 }  // namespace
 
-std::unique_ptr<CycleBase> MakeCycle(const Scenario& scenario, bus::Transport& transport, bool start_wanted,
+std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport, bool start_wanted,
                                      const strategy::ExternalLaw* law) {
   return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted, law);
 }

@@ -18,7 +18,7 @@ template <int N>
 inline constexpr int kLoopParameters = N <= 5 ? 7 : kMaxParameters;
 
 template <int N>
-std::unique_ptr<CycleBase> MakeCycleFor(const Scenario& scenario, bus::Transport& transport,
+std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::Transport& transport,
                                         bool start_wanted, const strategy::ExternalLaw* law) {
   constexpr int P = kLoopParameters<N>;
   if (scenario.arm.num_parameters() > P)

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "reed/config/schema/config_error.h"
+#include "reed/config/description/config_error.h"
 
 namespace reed {
 namespace {
@@ -84,7 +84,7 @@ void LawPlugin::Start(const LawSetup& setup, const std::string& argument) {
   }
 }
 
-std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const Scenario& scenario) {
+std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const ControllerConfig& scenario) {
   if (spec.empty()) return nullptr;
   LawSetup setup;
   setup.joints = scenario.arm.dof();
@@ -95,7 +95,7 @@ std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const Scenario& scen
   setup.J_m.resize(static_cast<std::size_t>(setup.joints), 0.0);
   setup.p_0 = scenario.control.p_initial;
   if (setup.p_0.empty()) {
-    for (const StructuralParameter& parameter : scenario.arm.parameters)
+    for (const NominalParameter& parameter : scenario.arm.parameters)
       setup.p_0.push_back(parameter.nominal);
   }
   return std::make_unique<LawPlugin>(spec, setup);

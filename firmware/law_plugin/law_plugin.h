@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/law/external_law.h"
 
 namespace reed {
@@ -46,6 +46,6 @@ class LawPlugin {
 };
 
 /// The law of a --law option for this scenario's arm and gains; nullptr where spec is empty. Throws as LawPlugin does.
-std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const Scenario& scenario);
+std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const ControllerConfig& scenario);
 
 }  // namespace reed

@@ -19,7 +19,7 @@ namespace {
 /// caches like.
 constexpr std::size_t kRingCapacity = 1024, kLockstepRingCapacity = 512;
 
-run_t Describe(const ControlOptions& options, const Scenario& scenario, const bus::Transport& transport) {
+run_t Describe(const ControlOptions& options, const ControllerConfig& scenario, const bus::Transport& transport) {
   run_t run{};
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;
@@ -89,12 +89,12 @@ int ExitStatus(const RealTimeRun& done, const CycleBase& cycle, const bus::Trans
 
 }  // namespace
 
-LoopOptions PlanLoop(const Scenario& scenario) {
+LoopOptions PlanLoop(const ControllerConfig& scenario) {
   RefuseWireOverload(scenario);
   return LoopOptionsFrom(WithBudgets(scenario));
 }
 
-int ControlArm(const ControlOptions& options, const Scenario& scenario, const LoopOptions& loop,
+int ControlArm(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
                bus::Transport& transport) {
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reed/bus/transport/transport.h"
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/firmware/loop/loop.h"
 #include "reed/rt/clock_kind.h"
 #include "reed/rt/usage.h"
@@ -27,11 +27,11 @@ struct ControlOptions {
 };
 
 /// The scenario's [timing] as the loop takes it; throws ConfigError when its frames do not fit the wire.
-LoopOptions PlanLoop(const Scenario& scenario);
+LoopOptions PlanLoop(const ControllerConfig& scenario);
 
 /// Runs the scenario to its end and returns the exit status: 0, 1 when the arm stopped, 3 when the bus is
 /// lost. Throws, before anything moves, what bad input throws.
-int ControlArm(const ControlOptions& options, const Scenario& scenario, const LoopOptions& loop,
+int ControlArm(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
                bus::Transport& transport);
 
 }  // namespace reed

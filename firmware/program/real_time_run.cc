@@ -36,7 +36,7 @@ void RunCounted(const ControlOptions& options, const LoopOptions& loop, const rt
 
 }  // namespace
 
-RealTimeRun RunInRealTime(const ControlOptions& options, const Scenario& scenario, const LoopOptions& loop,
+RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
                           bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = rt::StopFlag();
   const bool realtime = options.clock == rt::ClockKind::kRealtime;

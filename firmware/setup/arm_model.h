@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/controller/nominal_arm.h"
 #include "reed/core/model/arm_model.h"
 
 namespace reed::model {
@@ -29,31 +29,27 @@ inline MassMoments Moments(const InertialBody& body) {
   return MassMoments(body.mass_kg, body.com_m, body.inertia_com_kgm2);
 }
 
-/// What remains of a body after its parameters were taken out; rounding residue of the subtraction counts as
-/// nothing.
-inline MassMoments WithoutResidue(MassMoments rest, const MassMoments& total) {
-  constexpr double kResidue = 1e-13;
-  if (std::abs(rest.m) <= kResidue * std::abs(total.m)) rest.m = 0.0;
-  if (rest.h.norm() <= kResidue * (total.h.norm() + std::abs(total.m))) rest.h.setZero();
-  if (rest.J.norm() <= kResidue * (total.J.norm() + std::abs(total.m))) rest.J.setZero();
-  return rest;
+inline MassMoments Moments(const KnownMass& mass) {
+  MassMoments moments;
+  moments.m = mass.mass_kg;
+  moments.h = mass.first_kgm;
+  moments.J = mass.second_kgm2;
+  return moments;
 }
 
 template <int N, int P>
-void ReadParameters(const ArmDescription& arm, ArmModel<N, P>& out) {
+void ReadParameters(const NominalArm& arm, ArmModel<N, P>& out) {
   out.num_parameters = arm.num_parameters();
   if (out.num_parameters > P) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(out.num_parameters) +
                                 " parameters, the model is built for at most " + std::to_string(P));
   }
   out.viscous.setZero();
-  out.p_true.setZero();
   out.p_nominal.setZero();
   out.p_lo.setZero();
   out.p_hi.setZero();
   for (int k = 0; k < out.num_parameters; ++k) {
-    const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
-    out.p_true(k) = parameter.truth;
+    const NominalParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
     out.p_nominal(k) = parameter.nominal;
     out.p_lo(k) = parameter.lo;
     out.p_hi(k) = parameter.hi;
@@ -61,36 +57,33 @@ void ReadParameters(const ArmDescription& arm, ArmModel<N, P>& out) {
   }
 }
 
-/// Known part of a body = its total minus truth times unit of every parameter.
+/// The shapes of the parameters on each body, then its known part.
 template <int N, int P>
-void ReadBodies(const ArmDescription& arm, ArmModel<N, P>& out) {
-  if (static_cast<int>(arm.bodies.size()) != N) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.bodies.size()) + " bodies for " +
+void ReadBodies(const NominalArm& arm, ArmModel<N, P>& out) {
+  if (static_cast<int>(arm.known.size()) != N) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.known.size()) + " bodies for " +
                                 std::to_string(N) + " joints");
   }
   int count = 0;
   for (int b = 0; b < N; ++b) {
     out.first_shape[b] = count;
-    const MassMoments total = Moments(arm.bodies[static_cast<std::size_t>(b)]);
-    MassMoments known = total;
     for (int k = 0; k < out.num_parameters; ++k) {
-      const StructuralParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
+      const NominalParameter& parameter = arm.parameters[static_cast<std::size_t>(k)];
       MassMoments unit;
       for (const ParameterShape& part : parameter.shapes) {
         if (part.body == b) unit.Add(1.0, Moments(part.unit));
       }
       if (unit.IsZero()) continue;
       out.shape[count++] = {k, unit};
-      known.Add(-parameter.truth, unit);
     }
-    known = WithoutResidue(known, total);
+    const MassMoments known = Moments(arm.known[static_cast<std::size_t>(b)]);
     if (!known.IsZero()) out.shape[count++] = {P, known};
   }
   out.first_shape[N] = count;
 }
 
 template <int N, int P>
-void AddMember(const ArmDescription& arm, Member beam, ArmModel<N, P>& out) {
+void AddMember(const NominalArm& arm, Member beam, ArmModel<N, P>& out) {
   const int j = out.num_members++;
   if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
   const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
@@ -112,7 +105,7 @@ void AddMember(const ArmDescription& arm, Member beam, ArmModel<N, P>& out) {
 /// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
 /// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
 template <int N, int P>
-void ReadMembers(const ArmDescription& arm, ArmModel<N, P>& out) {
+void ReadMembers(const NominalArm& arm, ArmModel<N, P>& out) {
   out.num_members = 0;
   for (int i = 0; i < N; ++i) {
     out.carrier[i] = -1;
@@ -131,7 +124,7 @@ void ReadMembers(const ArmDescription& arm, ArmModel<N, P>& out) {
 /// Where the description does not say: no rotor inertia, no hardening, everything else infinite.
 /// Throws std::invalid_argument with one line for an arm of other sizes.
 template <int N, int P>
-ArmModel<N, P> ArmModelFrom(const ArmDescription& arm) {
+ArmModel<N, P> ArmModelFrom(const NominalArm& arm) {
   if (arm.dof() != N) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(arm.dof()) +
                                 " joints, the model is built for " + std::to_string(N));

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/contact/normal_direction.h"
 #include "reed/core/contact/stretch_guard.h"
 #include "reed/core/reference/joint_path.h"
@@ -19,7 +19,7 @@ inline std::string Rounded(double value, int digits) {
 
 /// A start behind the wall of the file: the wall's force would become the sensor's zero.
 template <int N>
-void RefuseStartBehindWall(const PoseOf<N>& pose_of, const Scenario& scenario, const JointPath<N>& path) {
+void RefuseStartBehindWall(const PoseOf<N>& pose_of, const ControllerConfig& scenario, const JointPath<N>& path) {
   constexpr double kRounding_m = 1e-6;  // a start at the surface is none
   if (!scenario.wall.present) return;
   const Eigen::Vector3d tip = pose_of(path.At(0.0).theta_d).tip;
@@ -31,7 +31,7 @@ void RefuseStartBehindWall(const PoseOf<N>& pose_of, const Scenario& scenario, c
 
 /// A press along a direction in which the arm can hardly move: nearly stretched, or folded.
 template <int N>
-void RefusePressNearSingularity(const PoseOf<N>& pose_of, const Scenario& scenario,
+void RefusePressNearSingularity(const PoseOf<N>& pose_of, const ControllerConfig& scenario,
                                 const JointPath<N>& path) {
   const ForceConfig& force = scenario.force;
   if (force.source == ForceConfig::Source::kNone || !(force.desired_N > 0.0)) return;

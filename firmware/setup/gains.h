@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/law/gains.h"
 #include "reed/core/law/law_names.h"
 
@@ -36,17 +36,18 @@ void PaperAdaptation(const model::ArmModel<N, P>& arm, Gains<N, P>& g) {
 }
 
 template <int N, int P>
-void Friction(const ArmDescription& description, const ControlConfig& c, const model::ArmModel<N, P>& arm,
+void Friction(const NominalArm& description, const ControlConfig& c, const model::ArmModel<N, P>& arm,
               Gains<N, P>& g) {
   constexpr double kBox = 0.05;      // of the torque limit, where the arm declares less
   constexpr double kDeclared = 1.5;  // of the declared friction, which wears and cools
   g.kappa_max = kBox * arm.torque_limit;
   g.kappa_0.setZero();
-  if (!description.coulomb_Nm.empty()) {
-    const model::Vec<N> declared = Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
-    g.kappa_0 = c.coulomb_known * declared;
-    g.kappa_max = g.kappa_max.cwiseMax(kDeclared * declared);
-  }
+  if (!description.coulomb_Nm.empty())
+    g.kappa_0 = Eigen::Map<const model::Vec<N>>(description.coulomb_Nm.data());
+  if (!description.coulomb_declared_Nm.empty())
+    g.kappa_max = g.kappa_max.cwiseMax(
+        kDeclared * Eigen::Map<const model::Vec<N>>(description.coulomb_declared_Nm.data()));
+  g.kappa_max = g.kappa_max.cwiseMax(g.kappa_0);  // the box holds the start
   g.Gamma_c_known = c.Gamma_friction * g.K_d;  // more damping: larger torques to adapt to
   g.Gamma_c_unknown =
       c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : g.Gamma_c_known;  // else two integrators add up
@@ -56,7 +57,7 @@ void Friction(const ArmDescription& description, const ControlConfig& c, const m
 }  // namespace internal
 
 template <int N, int P>
-Gains<N, P> GainsFrom(const ControlConfig& c, const ArmDescription& description,
+Gains<N, P> GainsFrom(const ControlConfig& c, const NominalArm& description,
                       const model::ArmModel<N, P>& arm, LawId law) {
   Gains<N, P> g;
   g.K_d = Eigen::Map<const model::Vec<N>>(c.K_d.data());

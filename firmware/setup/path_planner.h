@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/reference/joint_path.h"
 #include "reed/core/reference/minimum_jerk.h"
 #include "reed/firmware/setup/inverse_kinematics.h"
@@ -16,7 +16,7 @@ namespace reed::reference {
 template <int N>
 class PathPlanner {
  public:
-  PathPlanner(PoseOf<N> pose_of, const Scenario& scenario)
+  PathPlanner(PoseOf<N> pose_of, const ControllerConfig& scenario)
       : pose_of_(std::move(pose_of)), scenario_(scenario) {}
 
   PlannedPath<N> Plan() {
@@ -127,7 +127,7 @@ class PathPlanner {
   }
 
   void CheckLimits(const std::vector<typename JointPath<N>::Knot>& knots) const {
-    const ArmDescription& arm = scenario_.arm;
+    const NominalArm& arm = scenario_.arm;
     for (std::size_t k = 0; k < knots.size(); ++k) {
       for (int i = 0; i < N; ++i) {
         const double margin = scenario_.limits.position_margin_rad;
@@ -149,7 +149,7 @@ class PathPlanner {
   }
 
   PoseOf<N> pose_of_;
-  const Scenario& scenario_;
+  const ControllerConfig& scenario_;
 };
 
 }  // namespace reed::reference

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/core/model/kinematics.h"
 #include "reed/core/settings.h"
 #include "reed/firmware/setup/arm_model.h"
@@ -56,13 +56,13 @@ model::Vec<N> TorqueStep(const LimitConfig& config, const model::Vec<N>& torque_
 }
 
 /// What a force sensor that touches nothing may read, N.
-inline double ForceNoise(const SensorConfig& sensors) {
+inline double ForceNoise(const SensorData& sensors) {
   constexpr double kFrame_N = 0.02;  // of the wrench frame's resolution
   return kFrame_N + sensors.force_noise_N + sensors.force_quantum_N;
 }
 
 template <int N, int P>
-protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
+protect::LimitValues<N> LimitsFrom(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm) {
   protect::LimitValues<N> v;
   v.torque = scenario.limits.torque_scale * arm.torque_limit;
   v.torque_step = TorqueStep<N>(scenario.limits, arm.torque_limit, 1.0 / scenario.timing.rate_hz);
@@ -78,7 +78,7 @@ protect::LimitValues<N> LimitsFrom(const Scenario& scenario, const model::ArmMod
 }  // namespace internal
 
 template <int N, int P>
-Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
+Settings<N, P> SettingsFrom(const ControllerConfig& scenario, bool start_wanted) {
   Settings<N, P> s;
   s.arm = model::ArmModelFrom<N, P>(scenario.arm);
   s.law = internal::LawIdOf(scenario.control.law);
@@ -101,7 +101,7 @@ Settings<N, P> SettingsFrom(const Scenario& scenario, bool start_wanted) {
 
 /// The scenario's legs as knots. Throws std::runtime_error with one line for what the arm cannot follow.
 template <int N, int P>
-reference::PlannedPath<N> PathFrom(const Scenario& scenario, const model::ArmModel<N, P>& arm) {
+reference::PlannedPath<N> PathFrom(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm) {
   const auto pose_of = [&arm](const model::Vec<N>& q) {
     model::Kinematics<N> kin;
     model::ForwardKinematics<N, P>(arm, q, model::Vec<N>::Zero(), kin);

@@ -4,8 +4,8 @@
 
 #include "reed/bus/codec/wire_time.h"
 #include "reed/bus/listen/hears.h"
-#include "reed/config/schema/bound.h"
-#include "reed/config/schema/config_error.h"
+#include "reed/config/description/config_error.h"
+#include "reed/config/description/number_text.h"
 
 namespace reed {
 namespace {
@@ -20,7 +20,7 @@ void RefuseBudgetBelowWire(const char* key, double budget_us, double wire_us, co
 
 }  // namespace
 
-void RefuseWireOverload(const Scenario& scenario) {
+void RefuseWireOverload(const ControllerConfig& scenario) {
   const int joints = scenario.arm.dof();
   if (scenario.allow_wire_overload || bus::ScheduleFits(joints, scenario.timing.rate_hz)) return;
   throw ConfigError("timing.rate_hz: " + ToText(scenario.timing.rate_hz) + " Hz with " +
@@ -30,7 +30,7 @@ void RefuseWireOverload(const Scenario& scenario) {
                     " Hz, or scenario.allow_wire_overload = true");
 }
 
-TimingConfig WithBudgets(const Scenario& scenario) {
+TimingConfig WithBudgets(const ControllerConfig& scenario) {
   constexpr double kReceiveShare = 0.4;
   const int joints = scenario.arm.dof();
   const bool no_wire = scenario.allow_wire_overload;

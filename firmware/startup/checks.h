@@ -4,19 +4,19 @@
 #include <stdexcept>
 
 #include "reed/bus/transport/transport.h"
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/rt/program.h"
 
 namespace reed {
 
 /// Throws ConfigError when one cycle's frames do not fit a 1/5 Mbit/s wire at this rate and the scenario does
 /// not allow it.
-void RefuseWireOverload(const Scenario& scenario);
+void RefuseWireOverload(const ControllerConfig& scenario);
 
 /// The scenario's [timing] with every budget set: those that are 0 share what the others leave of the period.
 /// Throws ConfigError when nothing is left, or when a budget is shorter than its frames take on a 1/5 Mbit/s
 /// wire and the scenario does not allow it.
-TimingConfig WithBudgets(const Scenario& scenario);
+TimingConfig WithBudgets(const ControllerConfig& scenario);
 
 /// Drives do not wait for a controller; throws std::runtime_error where some may be at the bus's other end.
 void RefuseLockstepOnRealDrives(const bus::Transport& transport);

@@ -1,7 +1,7 @@
 // The scenario's [timing] -> the options of the loop. RT: set-up only.
 #pragma once
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/controller/controller_config.h"
 #include "reed/firmware/loop/loop.h"
 
 namespace reed {

@@ -7,7 +7,7 @@
 
 namespace reed::plant {
 
-DriveChain::DriveChain(const ArmDescription& arm, const DriveConfig& config)
+DriveChain::DriveChain(const TrueArm& arm, const DriveConfig& config)
     : timeout_periods_(config.command_timeout_cycles), torque_Nm_(Eigen::VectorXd::Zero(arm.dof())) {
   for (const double limit_Nm : arm.torque_limit_Nm) outputs_.emplace_back(limit_Nm, config.torque_bits);
 }

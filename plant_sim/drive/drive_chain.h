@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "reed/bus/codec/messages.h"
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 #include "reed/plant/drive/torque_output.h"
 
 namespace reed::plant {
 
 class DriveChain {
  public:
-  DriveChain(const ArmDescription& arm, const DriveConfig& config);
+  DriveChain(const TrueArm& arm, const DriveConfig& config);
 
   /// Power-up: off, brakes closed, nothing remembered of any controller.
   void Reset() noexcept;

@@ -21,11 +21,11 @@ constexpr double kSlight = 0.05;                 // of a link's mass: such a res
 constexpr double kNothing = 1e-14;               // of a mount that is an identity but for round-off
 constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
 
-void Require(bool condition, const ArmDescription& arm, const std::string& what) {
+void Require(bool condition, const TrueArm& arm, const std::string& what) {
   if (!condition) throw std::invalid_argument("arm " + arm.name + " cannot be simulated: " + what);
 }
 
-void CheckDrives(const ArmDescription& arm) {
+void CheckDrives(const TrueArm& arm) {
   const auto n = static_cast<std::size_t>(arm.dof());
   Require(n > 0 && n <= static_cast<std::size_t>(kMaxJoints), arm,
           "it needs 1 to " + std::to_string(kMaxJoints) + " joints");
@@ -39,7 +39,7 @@ void CheckDrives(const ArmDescription& arm) {
   }
 }
 
-void CheckSection(const ArmDescription& arm, std::size_t index, double length) {
+void CheckSection(const TrueArm& arm, std::size_t index, double length) {
   const std::string name = "section " + std::to_string(index + 1);
   Require(index < arm.sections.size(), arm,
           name + " is needed for a flexible member of " + std::to_string(length) + " m");
@@ -55,15 +55,13 @@ double At(const std::vector<double>& values, std::size_t i, double otherwise) {
   return i < values.size() ? values[i] : otherwise;
 }
 
-Drivetrain BuildDrivetrain(const ArmDescription& arm, const PlantConfig& config, std::size_t i) {
+Drivetrain BuildDrivetrain(const TrueArm& arm, const PlantModelConfig& config, std::size_t i) {
   const double scale = config.stiffness_scale * config.joint_stiffness_scale;
   Drivetrain drive;
   drive.rotor_inertia = arm.rotor_inertia_kgm2[i];
   drive.spring.k_q = scale * arm.joint_stiffness_Nmprad[i];
   drive.spring.k_3 = scale * At(arm.joint_hardening_Nmprad3, i, 0.0);
-  for (const StructuralParameter& p : arm.parameters)
-    drive.friction.viscous += p.truth * At(p.viscous_weights, i, 0.0);
-  drive.friction.viscous *= config.friction_scale;
+  drive.friction.viscous = config.friction_scale * At(arm.viscous_Nmsprad, i, 0.0);
   drive.friction.coulomb = config.friction_scale * At(arm.coulomb_Nm, i, 0.0);
   const double limit = At(arm.torque_limit_Nm, i, 0.0);
   drive.holding_torque = limit > 0.0 ? kHoldingTorqueOverLimit * limit : kHoldingTorque;
@@ -88,7 +86,7 @@ Placement AlongA(double a) {
 /// Builds the chain link by link; keeps the pose of the last output frame in the frame of the current link.
 class Builder {
  public:
-  Builder(const ArmDescription& arm, const PlantConfig& config) : arm_(arm), config_(config) {
+  Builder(const TrueArm& arm, const PlantModelConfig& config) : arm_(arm), config_(config) {
     chain_.gravity = arm.gravity_mps2;
   }
 
@@ -196,8 +194,8 @@ class Builder {
     }
   }
 
-  const ArmDescription& arm_;
-  const PlantConfig& config_;
+  const TrueArm& arm_;
+  const PlantModelConfig& config_;
   ArmChain chain_;
   Placement output_;                                // last output frame in the current link's frame
   std::size_t section_ = 0, sections_of_link_ = 0;  // next section to read, next one to build
@@ -205,7 +203,7 @@ class Builder {
 
 }  // namespace
 
-ArmChain BuildChain(const ArmDescription& arm, const PlantConfig& config) {
+ArmChain BuildChain(const TrueArm& arm, const PlantModelConfig& config) {
   CheckDrives(arm);
   Require(config.elements_per_link >= 1, arm, "elements_per_link must be at least 1");
   Require(config.stiffness_scale > 0.0 && config.joint_stiffness_scale > 0.0, arm,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 #include "reed/plant/dynamics/beam_elasticity.h"
 #include "reed/plant/dynamics/beam_inertia.h"
 #include "reed/plant/dynamics/friction.h"
@@ -54,7 +54,7 @@ struct ArmChain {
 };
 
 /// Throws std::invalid_argument, naming what is missing, when the arm cannot be simulated.
-ArmChain BuildChain(const ArmDescription& arm, const PlantConfig& config);
+ArmChain BuildChain(const TrueArm& arm, const PlantModelConfig& config);
 
 /// Structural damping proportional to stiffness: d = beta k_q in every joint, beta K in every member.
 void SetStructuralDamping(ArmChain& chain, double beta_s);

@@ -37,11 +37,11 @@ std::vector<Brake> BuildBrakes(const ArmChain& chain) {
 
 class ArmPlant::Impl {
  public:
-  explicit Impl(const Scenario& scenario)
-      : config_(scenario.plant),
-        chain_(BuildChain(scenario.arm, scenario.plant)),
-        wall_(scenario.wall),
-        disturbance_(scenario.disturbance, scenario.seed),
+  explicit Impl(const PlantConfig& config)
+      : config_(config.plant),
+        chain_(BuildChain(config.arm, config.plant)),
+        wall_(config.wall),
+        disturbance_(config.disturbance, config.seed),
         equations_(chain_, wall_),
         integrator_(equations_.size()),
         brakes_(BuildBrakes(chain_)),
@@ -71,7 +71,7 @@ class ArmPlant::Impl {
     x_.head(n) = x_.segment(n, n) = motor_angle_rad;
     x_dot_.setZero();
     if (!Settle(equations_, Vector3d::Zero(), x_))
-      throw std::runtime_error("ArmPlant::Reset: no static equilibrium in this pose");
+      throw std::runtime_error("reference.start_rad: the simulated arm finds no equilibrium there; its springs or links are too soft for its weight");
     // Structural damping: the given ratio at the lowest frequency, proportional to stiffness beyond it.
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
@@ -169,7 +169,7 @@ class ArmPlant::Impl {
     truth_.potential_J = equations_.GravityEnergy();
   }
 
-  PlantConfig config_;
+  PlantModelConfig config_;
   ArmChain chain_;
   Wall wall_;
   Disturbance disturbance_;
@@ -189,7 +189,7 @@ class ArmPlant::Impl {
   int sick_coordinate_ = -1;
 };
 
-ArmPlant::ArmPlant(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario)) {}
+ArmPlant::ArmPlant(const PlantConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 ArmPlant::~ArmPlant() = default;
 void ArmPlant::Reset(const VectorXd& motor_angle_rad) { impl_->Reset(motor_angle_rad); }
 void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {

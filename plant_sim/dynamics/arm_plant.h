@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 
 namespace reed::plant {
 
@@ -33,7 +33,7 @@ class ArmPlant {
  public:
   /// Throws std::invalid_argument when the arm cannot be simulated (no rotor inertia, no sections for
   /// flexible links ...).
-  explicit ArmPlant(const Scenario& scenario);
+  explicit ArmPlant(const PlantConfig& config);
   ~ArmPlant();
 
   /// Puts the arm at rest, in static equilibrium, with the motors held at these angles. t = 0.

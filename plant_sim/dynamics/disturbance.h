@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 
 namespace reed::plant {
 

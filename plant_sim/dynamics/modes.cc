@@ -57,7 +57,7 @@ namespace {
 
 /// What bends while the motors are locked: a description may leave out the rotors, which do not move, and
 /// either the springs or the sections, which are then rigid.
-ArmChain LockedChain(ArmDescription arm, PlantConfig config) {
+ArmChain LockedChain(TrueArm arm, PlantModelConfig config) {
   constexpr double kRigid_Nmprad = 1e9;
   const auto joints = static_cast<std::size_t>(arm.dof());
   if (arm.joint_stiffness_Nmprad.empty() && arm.sections.empty())
@@ -73,7 +73,7 @@ ArmChain LockedChain(ArmDescription arm, PlantConfig config) {
 
 class ArmModes::Impl {
  public:
-  Impl(const ArmDescription& arm, const PlantConfig& config, const VectorXd& motor_angle_rad)
+  Impl(const TrueArm& arm, const PlantModelConfig& config, const VectorXd& motor_angle_rad)
       : chain_(LockedChain(arm, config)),
         gravity_(chain_.gravity),
         wall_(WallConfig{}),
@@ -128,7 +128,7 @@ class ArmModes::Impl {
   std::vector<double> frequency_hz_;
 };
 
-ArmModes::ArmModes(const ArmDescription& arm, const PlantConfig& config, const VectorXd& motor_angle_rad)
+ArmModes::ArmModes(const TrueArm& arm, const PlantModelConfig& config, const VectorXd& motor_angle_rad)
     : impl_(std::make_unique<Impl>(arm, config, motor_angle_rad)) {
   impl_->Load(Vector3d::Zero(), true);
 }

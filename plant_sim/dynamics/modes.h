@@ -6,18 +6,18 @@
 #include <memory>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 
 namespace reed::plant {
 
 /// Bending frequencies in Hz, ascending, of a clamped beam with a point mass at its tip, in one plane.
 std::vector<double> BeamModes(double length_m, double EI_Nm2, double rhoA_kgpm, double tip_mass_kg,
-                              int elements = PlantConfig{}.elements_per_link);
+                              int elements = PlantModelConfig{}.elements_per_link);
 
 /// The arm with locked motors.
 class ArmModes {
  public:
-  ArmModes(const ArmDescription& arm, const PlantConfig& config, const Eigen::VectorXd& motor_angle_rad);
+  ArmModes(const TrueArm& arm, const PlantModelConfig& config, const Eigen::VectorXd& motor_angle_rad);
   ~ArmModes();
 
   /// Equilibrium under a force at the tool point (base frame), with or without gravity. Returns the tool

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 
 namespace reed::plant {
 

@@ -12,14 +12,14 @@ constexpr double kShapes_hz = 60.0;  // what an eye can follow
 
 }  // namespace
 
-Endpoint::Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder)
-    : period_s_(1.0 / scenario.timing.rate_hz),
+Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder)
+    : period_s_(1.0 / config.timing.rate_hz),
       shape_every_cycles_(
-          static_cast<std::uint32_t>(std::max(1L, std::lround(scenario.timing.rate_hz / kShapes_hz)))),
-      timeout_periods_(scenario.drives.command_timeout_cycles),
+          static_cast<std::uint32_t>(std::max(1L, std::lround(config.timing.rate_hz / kShapes_hz)))),
+      timeout_periods_(config.drives.command_timeout_cycles),
       body_(body),
       journal_(recorder),
-      robot_(scenario, body, journal_),
+      robot_(config, body, journal_),
       port_(transport) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {

@@ -20,7 +20,7 @@ struct HostPauses {
 class Endpoint {
  public:
   /// `transport`, `body` and `recorder` outlive the endpoint.
-  Endpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder);
+  Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder);
   virtual ~Endpoint() = default;
 
   /// Waits for frames until `deadline_ns` (CLOCK_MONOTONIC) and does what they ask. True when any frame was

@@ -9,7 +9,7 @@ namespace reed::plant {
 
 class FlexibleArmBody final : public ArmBody {
  public:
-  explicit FlexibleArmBody(const Scenario& scenario) : plant_(scenario) {}
+  explicit FlexibleArmBody(const PlantConfig& config) : plant_(config) {}
   void Reset(const Eigen::VectorXd& motor_angle_rad) override { plant_.Reset(motor_angle_rad); }
   void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s) override {
     plant_.Advance(motor_torque_Nm, braked, dt_s);

@@ -11,9 +11,9 @@ constexpr std::uint32_t kMaxGapCycles = 1000;
 
 }  // namespace
 
-LockstepEndpoint::LockstepEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body,
+LockstepEndpoint::LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
                                    Recorder& recorder)
-    : Endpoint(scenario, transport, body, recorder), rate_hz_(scenario.timing.rate_hz) {}
+    : Endpoint(config, transport, body, recorder), rate_hz_(config.timing.rate_hz) {}
 
 void LockstepEndpoint::Handle(std::span<const Incoming> incoming) {
   for (const Incoming& in : incoming) {

@@ -15,7 +15,7 @@ namespace reed::plant {
 
 class LockstepEndpoint final : public Endpoint {
  public:
-  LockstepEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder);
+  LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder);
 
  private:
   void Handle(std::span<const Incoming> incoming) override;

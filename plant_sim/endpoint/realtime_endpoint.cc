@@ -13,11 +13,11 @@ EndpointClock EndpointClock::System() {
           [] { return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count(); }};
 }
 
-RealtimeEndpoint::RealtimeEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body,
+RealtimeEndpoint::RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
                                    Recorder& recorder, EndpointClock clock)
-    : Endpoint(scenario, transport, body, recorder),
+    : Endpoint(config, transport, body, recorder),
       clock_(std::move(clock)),
-      max_step_ns_(std::max<std::int64_t>(1, std::llround(scenario.plant.max_step_s * 1e9))) {}
+      max_step_ns_(std::max<std::int64_t>(1, std::llround(config.plant.max_step_s * 1e9))) {}
 
 void RealtimeEndpoint::Handle(std::span<const Incoming> incoming) {
   const std::int64_t now_ns = clock_.monotonic_ns();

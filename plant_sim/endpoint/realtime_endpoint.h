@@ -23,7 +23,7 @@ struct EndpointClock {
 
 class RealtimeEndpoint final : public Endpoint {
  public:
-  RealtimeEndpoint(const Scenario& scenario, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+  RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
                    EndpointClock clock = EndpointClock::System());
 
  private:

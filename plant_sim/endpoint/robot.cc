@@ -14,15 +14,14 @@ double Fastest(const Eigen::VectorXd& speed_radps) { return speed_radps.cwiseAbs
 
 }  // namespace
 
-Robot::Robot(const Scenario& scenario, ArmBody& body, Journal& journal)
+Robot::Robot(const PlantConfig& config, ArmBody& body, Journal& journal)
     : body_(body),
       journal_(journal),
-      start_rad_(Eigen::Map<const Eigen::VectorXd>(scenario.reference.start_rad.data(), scenario.arm.dof())),
-      drives_(scenario.arm, scenario.drives),
-      encoder_(scenario.sensors.encoder_bits),
-      speeds_(static_cast<std::size_t>(scenario.arm.dof()),
-              VelocityFilter(scenario.sensors.velocity_filter_hz)),
-      wrench_(scenario.sensors, scenario.seed) {
+      start_rad_(Eigen::Map<const Eigen::VectorXd>(config.start_rad.data(), config.arm.dof())),
+      drives_(config.arm, config.drives),
+      encoder_(config.sensors.encoder_bits),
+      speeds_(static_cast<std::size_t>(config.arm.dof()), VelocityFilter(config.sensors.velocity_filter_hz)),
+      wrench_(config.sensors, config.seed) {
   Reset();
 }
 

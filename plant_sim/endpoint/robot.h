@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reed/bus/codec/messages.h"
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 #include "reed/plant/drive/drive_chain.h"
 #include "reed/plant/endpoint/arm_body.h"
 #include "reed/plant/endpoint/journal.h"
@@ -29,7 +29,7 @@ struct Measurement {
 class Robot {
  public:
   /// `body` and `journal` outlive the robot.
-  Robot(const Scenario& scenario, ArmBody& body, Journal& journal);
+  Robot(const PlantConfig& config, ArmBody& body, Journal& journal);
 
   /// t = 0: at rest in reference.start_rad, drives off, brakes closed, sensors as after power-up.
   void Reset();

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/description/arm_structure.h"
 
 namespace reed::plant {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/plant/plant_config.h"
 #include "reed/plant/sensor/random_stream.h"
 
 namespace reed::plant {

@@ -179,8 +179,9 @@ def test_a_json_arm_without_limits_runs_with_careful_ones(tmp_path):
     assert arm["position_min"] == [-2.9] * 5 and arm["position_max"] == [2.9] * 5
     assert arm["speed_limit"] == [3.0] * 5
     given = tomllib.loads(ARM)
-    for key in ("dh", "p_true", "torque_limit", "joint_stiffness"):
+    for key in ("dh", "torque_limit", "joint_stiffness"):
         assert arm[key] == given[key]
+    assert arm["truth"]["p"] == given["p_true"]
 
 
 @pytest.mark.parametrize("key", ["rotor_inertia_reflected", "joint_stiffness", "torque_limit"])
@@ -247,6 +248,8 @@ def test_what_is_near_to_nothing_gets_the_list_alone(word):
 def test_the_readme_holds_the_table_of_every_key():
     keys = subprocess.run([PROGRAM, "--keys"], capture_output=True, text=True, check=True).stdout
     assert keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --keys` prints"
+    arm_keys = subprocess.run([PROGRAM, "--arm-keys"], capture_output=True, text=True, check=True).stdout
+    assert arm_keys in (ROOT / "config/README.md").read_text(), "paste what `reed_config --arm-keys` prints"
 
 
 def test_the_readme_names_every_key_of_the_arm_and_every_check():
@@ -269,7 +272,7 @@ def test_another_truth_moves_the_bodies_and_nothing_that_the_controller_knows(tm
 
     _, before = effective()
     path, after = effective("--set", "plant.p_true=[1.0,0.2,0.06,0.55,0.6,0.25]")
-    bodies, old = after["arm"]["bodies"], before["arm"]["bodies"]
+    bodies, old = after["arm"]["truth"]["bodies"], before["arm"]["truth"]["bodies"]
     assert bodies[1]["mass"] == pytest.approx(1.0) and bodies[1]["com"] == pytest.approx([0.175, 0, 0])
     assert bodies[1]["inertia_about_com"][2][2] == pytest.approx(1.0 * 0.35**2 / 12)
     assert bodies[0]["inertia_about_com"][2][2] == pytest.approx(0.2) and bodies[0]["mass"] == 0
@@ -279,8 +282,9 @@ def test_another_truth_moves_the_bodies_and_nothing_that_the_controller_knows(tm
     # about the centre of mass: both parts' own inertia and their distances from it
     own = 0.6 * 0.0021 + 0.25 * 0.00064
     assert bodies[4]["inertia_about_com"][0][0] == pytest.approx(own + 0.6 * (0.075 + c)**2 + 0.25 * c**2)
-    assert after["arm"]["p_true"] == [1.0, 0.2, 0.06, 0.55, 0.6, 0.25] and after["arm"]["p_nom"] == before["arm"]["p_nom"]
-    assert {key for key in after["arm"] if after["arm"][key] != before["arm"][key]} == {"bodies", "p_true"}
+    assert after["arm"]["truth"]["p"] == [1.0, 0.2, 0.06, 0.55, 0.6, 0.25]
+    assert {key for key in before["arm"] if after["arm"][key] != before["arm"][key]} == {"truth"}
+    assert {key for key in before["arm"]["truth"] if after["arm"]["truth"][key] != before["arm"]["truth"][key]} == {"bodies", "p"}
     assert effective(config=path)[1] == after  # read back as it was written
 
 
@@ -288,3 +292,177 @@ def test_a_truth_outside_its_box_is_refused():
     assert "m2: truth 1.3 lies outside the box 0 ... 1.2" in refused("--config", "press_known", "--set",
                                                                      "plant.p_true=[1.3,0.15,0.12,0.55,0.4,0.5]")
     assert "3 numbers for 6 parameters" in refused("--config", "press_known", "--set", "plant.p_true=[0.7,0.15,0.12]")
+
+
+TRUTHS = ("plant", "drives", "disturbance")  # sections of the plant alone
+
+
+def halves(folder, *options):
+    controller, plant = folder / "controller.toml", folder / "plant.toml"
+    assert run(*options, "--write-controller", str(controller), "--write-plant", str(plant)) == (0, "")
+    return controller, plant
+
+
+def test_the_controllers_half_does_not_change_with_the_truth(tmp_path):
+    """Every true value is moved; what is written for the controller stays the same text."""
+    moved = {"arm.truth.p": "[1.0,0.2,0.06,0.5,0.6,0.25]", "arm.truth.coulomb": "0.01", "plant.stiffness_scale": "0.9",
+             "plant.friction_scale": "2", "plant.payload_step_kg": "0.3", "drives.torque_bits": "12", "sensors.force_bias_N": "[0,0,3]",
+             "sensors.moment_noise_Nm": "0.2", "sensors.wrench_lost_from_s": "1.0", "sensors.wrench_lost_to_s": "2.0",
+             "wall.offset_m": "0.004", "wall.stiffness_Npm": "2e4", "wall.friction": "0.4", "disturbance.bias_N": "[1,2,3]"}
+    arm = tmp_path / "a5.toml"  # says what is known of the links by itself: nothing but the parameters
+    known = "[[known_bodies]]\nmass = 0.0\n" * 5
+    arm.write_text((ROOT / "config/arms/a5.toml").read_text().replace("[truth]\n", f"{known}\n[truth]\n"))
+    (tmp_path / "one").mkdir(), (tmp_path / "other").mkdir()
+    common = ("--config", "press_known", "--arm", str(arm))
+    one, plant_one = halves(tmp_path / "one", *common)
+    other, plant_other = halves(tmp_path / "other", *common, *(f"--set={key}={value}" for key, value in moved.items()))
+    assert one.read_text() == other.read_text()
+    assert plant_one.read_text() != plant_other.read_text()
+
+
+def test_the_halves_hold_nothing_of_each_other_and_are_read_back_unchanged(tmp_path):
+    controller, plant = halves(tmp_path, "--config", "press_known", "--set", "control.coulomb_known=0.5")
+    knows, is_so = tomllib.loads(controller.read_text()), tomllib.loads(plant.read_text())
+    assert not set(TRUTHS) & set(knows) and not {"truth", "bodies", "coulomb", "p_true"} & set(knows["arm"])
+    assert set(knows["wall"]) == {"present", "point_m", "normal"}
+    assert set(knows["sensors"]) == {"wrench", "encoder_bits", "velocity_filter_hz", "force_range_N", "force_noise_N", "force_quantum_N"}
+    assert knows["arm"]["coulomb_nominal"] == [0.15, 0.15, 0.1, 0.05, 0.025]  # the share that is declared as known
+    assert knows["arm"]["coulomb_declared"] == [0.3, 0.3, 0.2, 0.1, 0.05]
+    assert not {"control", "force", "limits", "checks"} & set(is_so) and "legs" not in is_so["reference"]
+    assert not {"p_nom", "p_lo", "p_hi", "param_names"} & set(is_so["arm"])
+    again = tmp_path / "again.toml"
+    assert run("--config", str(controller), "--write-controller", str(again)) == (0, "")
+    assert again.read_text() == controller.read_text()
+
+
+def test_the_shipped_arms_mean_what_they_meant_before_the_truth_had_its_place(tmp_path):
+    """tests/config/data/a5.toml is the old form, keys of the truth among the others."""
+    old, new = tmp_path / "old.toml", tmp_path / "new.toml"
+    assert run("--arm", str(DATA / "a5.toml"), "--write", str(old)) == run("--arm", "a5", "--write", str(new)) == (0, "")
+    assert old.read_text() == new.read_text()
+
+
+@pytest.mark.parametrize(("key", "place", "value"), [("p_true", "p", [0.6, 0.1, 0.1, 0.5, 0.3, 0.4]),
+                                                     ("coulomb", "coulomb", [0.1, 0.2, 0.1, 0.2, 0.1])])
+def test_the_old_keys_of_the_truth_are_still_set(key, place, value, tmp_path):
+    out = tmp_path / "effective.toml"
+    for arm in ("a5", str(DATA / "a5.toml")):
+        assert run("--arm", arm, "--set", f"arm.{key}={value}", "--write", str(out)) == (0, "")
+        assert tomllib.loads(out.read_text())["arm"]["truth"][place] == value
+
+
+def test_a_truth_in_both_places_is_refused(tmp_path):
+    arm = tmp_path / "a5.toml"
+    arm.write_text(ARM + "\n[truth]\np = [0.7, 0.15, 0.12, 0.55, 0.4, 0.5]\n")
+    assert "arm.p_true: given twice; it is truth.p now" in refused("--arm", str(arm))
+    arm.write_text(ARM + "\n[truth]\ncoulomb = 0.1\n")
+    assert f"{arm}:{line_of(ARM, 'coulomb = ')}: arm.coulomb: given twice" in refused("--arm", str(arm))
+
+
+def test_bodies_beside_nominal_values_move_with_the_truth(tmp_path):
+    """A file that says what one knows, and a truth that is all that differs: m2 is a rod of 0.35 m."""
+    arm, out = tmp_path / "arm.toml", tmp_path / "effective.toml"
+    text = changed(ARM, "p_true = [0.7, 0.15, 0.12, 0.55, 0.4, 0.5]", "").split("[[bodies]]")
+    assert "p_true" not in "".join(text)
+    arm.write_text("[[bodies]]".join(text))  # the bodies are those at p_nom now
+    assert run("--arm", str(arm), "--write", str(out)) == (0, "")
+    nominal = tomllib.loads(out.read_text())["arm"]
+    assert nominal["truth"]["p"] == nominal["p_nom"]
+    arm.write_text("[[bodies]]".join(text) + "\n[truth]\np = [0.9, 0.05, 0.05, 0.3, 0.2, 0.0]\n")
+    assert run("--arm", str(arm), "--write", str(out)) == (0, "")
+    true = tomllib.loads(out.read_text())["arm"]
+    assert true["truth"]["bodies"][1]["mass"] == pytest.approx(nominal["truth"]["bodies"][1]["mass"] + 0.5)
+    assert true["truth"]["bodies"][2] == nominal["truth"]["bodies"][2]
+    assert true["p_nom"] == nominal["p_nom"]
+
+
+DEEP = {"json": "[" * 30000 + "]" * 30000, "toml": "a" + ".a" * 40000 + " = 1\n"}
+
+
+@pytest.mark.parametrize("kind", DEEP)
+def test_depth_has_a_limit(kind, tmp_path):
+    path = tmp_path / f"deep.{kind}"
+    path.write_text('{"dh": ' + DEEP[kind] + "}" if kind == "json" else "# one\n" + DEEP[kind])
+    error = refused("--arm", str(path))
+    assert str(path) in error and "nested deeper than 64 levels" in error
+    assert kind == "json" or f"{path}:2: " in error
+    scenario = tmp_path / "deep2.toml"
+    scenario.write_text(SCENARIO + "\n[x]\ny = {" + DEEP["toml"].strip() + "}\n")
+    assert "nested deeper than 64 levels" in refused("--config", str(scenario))
+    assert "nested deeper than 64 levels" in refused("--set", "arm" + ".a" * 40000 + "=1")
+    assert "nested deeper" in refused("--set", "wall.x={" + "a." * 40000 + "a=1}")
+
+
+def test_dots_in_texts_and_comments_are_no_depth(tmp_path):
+    path = tmp_path / "dots.toml"
+    path.write_text("# " + "." * 500 + "\n" + changed(SCENARIO, "[scenario]\n", "[scenario]\n# \"\n").replace(
+        'description = "', 'description = "' + "." * 200))
+    assert run("--config", str(path)) == (0, "")
+
+
+@pytest.mark.parametrize("text", ['{"dh": 1e999}', '{"dh": 18446744073709551616000000}', "[1, 2]", "3", '{"dh": "\ud800"}', '{"\u0000": 1}'])
+def test_odd_json_is_refused_in_one_line(text, tmp_path):
+    path = tmp_path / "odd.json"
+    path.write_bytes(text.encode(errors="surrogatepass"))
+    assert str(path) in refused("--arm", str(path))
+
+
+def test_long_names_and_files_are_refused(tmp_path):
+    assert "no arm" in refused("--arm", "a" * 300) and "no scenario" in refused("--config", "a" * 300)
+    assert "longer than 100" in refused("--set", f"scenario.name='{'a' * 101}'")
+    assert "longer than 1000" in refused("--set", f"scenario.description='{'a' * 1001}'")
+    assert run("--set", f"scenario.name='{'a' * 100}'") == (0, "")
+    assert "control character" in refused("--set", 'scenario.name="one\\ntwo"')
+    assert len(refused("--set", "control.law=" + "x" * 100_000)) < 1100
+    path = tmp_path / "large.toml"
+    path.write_text("# " + "x" * (5 << 20))
+    assert "larger than 4 MiB" in refused("--config", str(path))
+
+
+def test_an_index_into_an_empty_list_is_named_so(tmp_path):
+    path = tmp_path / "none.toml"
+    path.write_text("checks = []\n" + SCENARIO.split("[[checks]]")[0])
+    assert "no entry '0'; the list is empty" in refused("--config", str(path), "--set", "checks.0.limit=1")
+
+
+DOES_NOTHING_OR_CANNOT_BE = {
+    "a force that trips": (["force.desired_N=60"], ["force.desired_N: 60 N is not below limits.contact_force_N = 60 N"]),
+    "an end before the start": (["force.end_s=0.2"], ["force.end_s: 0.2 s is not after force.start_s = 0.3 s"]),
+    "a slide without a frequency": (["reference.legs.1.frequency_hz=0"], ["reference.legs.1.frequency_hz", "stands still"]),
+    "amplitudes without frequencies": (["disturbance.amplitude_N=[1,0,0]"], ["does nothing without disturbance.frequencies_hz"]),
+    "frequencies without amplitudes": (["disturbance.frequencies_hz=[1]"], ["do nothing without disturbance.amplitude_N"]),
+    "a step at no time": (["disturbance.step_N=[1,0,0]"], ["does nothing without disturbance.step_s"]),
+    "a sensor back before it is lost": (["sensors.wrench_lost_from_s=2", "sensors.wrench_lost_to_s=1"],
+                                        ["sensors.wrench_lost_to_s: 1 s is not after wrench_lost_from_s = 2 s", "-1 for never"]),
+    "a sensor back that never left": (["sensors.wrench_lost_to_s=1"], ["does nothing without sensors.wrench_lost_from_s"]),
+    "a wall that is never met": (["wall.point_m=[0.4,0,0.06]"], ["wall.point_m: the wall is never met", "0.027 m"]),
+    "masses in grams": (["arm.bodies.4.mass=120"], ["reference.start_rad: joint 2", "473", "its limit is 40 N·m (masses are in kg)"]),
+    "a torque that no command carries": (["arm.torque_limit=2048"], ["arm.torque_limit: joint 1: 2048 N·m is not below the 2048 N·m"]),
+    "a speed that no frame carries": (["arm.speed_limit=64"], ["arm.speed_limit: joint 1: 64 rad/s is not below the 64 rad/s"]),
+    "a force that no frame carries": (["limits.contact_force_N=4097"], ["limits.contact_force_N", "0.1 ... 4096 N"]),
+    "a sensor whose range no frame carries": (["sensors.force_range_N=4097"], ["sensors.force_range_N", "1 ... 4096 N"]),
+}
+
+
+@pytest.mark.parametrize("case", DOES_NOTHING_OR_CANNOT_BE)
+def test_what_does_nothing_or_cannot_be_is_refused(case):
+    entries, words = DOES_NOTHING_OR_CANNOT_BE[case]
+    error = refused("--config", "press_known", *(f"--set={entry}" for entry in entries))
+    for word in words:
+        assert word.replace("legs.1", "legs") in error.replace("legs.1", "legs").replace("legs[1]", "legs"), error
+
+
+def test_just_inside_is_accepted():
+    for entry in ("force.desired_N=59", "force.end_s=0.4", "wall.point_m=[0.4,0,0.14]", "arm.torque_limit=2047", "arm.speed_limit=63",
+                  "limits.contact_force_N=190", "sensors.force_range_N=4096", "sensors.wrench_lost_from_s=2", "arm.position_max=6.2832"):
+        assert run("--config", "press_known", "--set", entry) == (0, ""), entry
+
+
+def test_a_wall_beside_the_plane_of_a_planar_arm_is_refused():
+    press = ["--set=force.source='unknown'", "--set=force.desired_N=5", "--set=wall.present=true", "--set=wall.point_m=[0.8,0,0.1]"]
+    assert "wall.normal: no joint of this arm moves the tool point along it" in refused(
+        "--config", "joints2", *press, "--set=wall.normal=[0,1,0]")
+
+
+def test_a_mass_too_small_for_its_inertia_is_refused_before_it_is_written():
+    assert "body 7: mass 1e-09 kg is too small for its inertia" in refused("--config", "joints7", "--set", "arm.bodies.6.mass=1e-9")

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "reed/config/schema/halves.h"
 #include "reed/core/contact/force_loop.h"
 #include "reed/core/contact/normal_direction.h"
 #include "reed/core/estimate/force_estimate.h"
@@ -15,7 +16,7 @@ namespace {
 
 template <int N, int P>
 void ExpectPureTranslation(const ArmDescription& description, double sideways) {
-  const model::ArmModel<N, P> arm = model::ArmModelFrom<N, P>(description);
+  const model::ArmModel<N, P> arm = model::ArmModelFrom<N, P>(NominalOf(description));
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> angle(0.3, 1.2), any(-1.0, 1.0);
   for (int trial = 0; trial < 50; ++trial) {
@@ -48,7 +49,7 @@ TEST(DirectionsOfArms, OfSevenJointsIsAPureTranslation) { ExpectPureTranslation<
 // Five joints cannot always keep the hand's direction: D then is the least-squares compromise, J_n D = 1
 // still.
 TEST(DirectionsOfArms, OfFiveJointsMovesTheTipByOneAlongTheNormal) {
-  const model::ArmModel<5, 6> arm = model::ArmModelFrom<5, 6>(test::ArmA5());
+  const model::ArmModel<5, 6> arm = model::ArmModelFrom<5, 6>(NominalOf(test::ArmA5()));
   model::Kinematics<5> kin;
   model::Vec<5> q;
   q << 0.0, 1.057362, -1.764384, -2.43457, 0.0;

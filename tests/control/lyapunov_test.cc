@@ -15,18 +15,19 @@
 #include "reed/core/model/regressor.h"
 #include "reed/firmware/setup/arm_model.h"
 #include "reed/tests/support/arms.h"
+#include "reed/tests/support/model_arm.h"
 
 namespace reed {
 namespace {
 
 constexpr int N = 5, P = 6;
-using Arm = model::ArmModel<N, P>;
+using Arm = test::ModelArm<N, P>;
 using VecN = model::Vec<N>;
 using VecP = model::Vec<P>;
 using MatN = model::Mat<N, N>;
 
 const Arm& A5() {
-  static const Arm arm = model::ArmModelFrom<N, P>(test::ArmA5());
+  static const Arm arm(test::ArmA5());
   return arm;
 }
 

@@ -113,6 +113,7 @@ Scenario HeavyArm() {
   arm.rotor_inertia_kgm2 = {40.0, 30.0};
   arm.joint_stiffness_Nmprad = {2e6, 1e6};
   arm.coulomb_Nm.clear();
+  arm.coulomb_declared_Nm.clear();
   arm.torque_limit_Nm = {2000.0, 1000.0};
   arm.speed_limit_radps = {2.0, 2.0};
   arm.bodies[0] = {75.0, {0.6, 0.0, 0.0}, Eigen::Vector3d(0.25, 9.0, 9.0).asDiagonal()};
@@ -152,6 +153,7 @@ TEST(HeavyArm, DoesNotSagWhenItsDrivesAreEnabled) {
 TEST(RoughArm, LearnsTheFrictionThatItDeclares) {
   Scenario scenario = LoadScenario("press_no_sensor");
   scenario.arm.coulomb_Nm = {4.0, 4.0, 2.5, 1.2, 0.8};  // a tenth of the torque limits
+  scenario.arm.coulomb_declared_Nm = scenario.arm.coulomb_Nm;
   SilRig rig(scenario);
   ASSERT_TRUE(rig.RunActive(3.0));
   double square_sum = 0.0;
@@ -166,6 +168,7 @@ TEST(RoughArm, LearnsTheFrictionThatItDeclares) {
 TEST(RoughArm, FollowsAFreePathAsASmoothOneWhereItsFrictionIsKnown) {
   Scenario scenario = LoadScenario("free_motion");
   scenario.arm.coulomb_Nm = {4.0, 4.0, 2.5, 1.2, 0.8};
+  scenario.arm.coulomb_declared_Nm = scenario.arm.coulomb_Nm;
   scenario.control.coulomb_known = 1.0;
   SilRig rig(scenario);
   ASSERT_TRUE(rig.RunActive(2.0));

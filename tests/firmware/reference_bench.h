@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reed/config/schema/halves.h"
 #include "reed/firmware/setup/arm_model.h"
 #include "reed/firmware/setup/path_planner.h"
 #include "reed/tests/support/arms.h"
@@ -14,8 +15,8 @@ namespace reed::reference {
 /// Forward kinematics of one arm, and a scenario with wide limits.
 template <int N>
 struct Bench {
-  explicit Bench(const ArmDescription& arm) : model(model::ArmModelFrom<N, 12>(arm)) {
-    scenario.arm = arm;
+  explicit Bench(const ArmDescription& arm) : model(model::ArmModelFrom<N, 12>(NominalOf(arm))) {
+    scenario.arm = NominalOf(arm);
     scenario.arm.position_min_rad.assign(N, -3.0);
     scenario.arm.position_max_rad.assign(N, 3.0);
     scenario.arm.speed_limit_radps.assign(N, 10.0);
@@ -45,7 +46,7 @@ struct Bench {
   }
 
   model::ArmModel<N, 12> model;
-  Scenario scenario;
+  ControllerConfig scenario;
 };
 
 inline model::Vec<5> PoseA5() { return (model::Vec<5>() << 0.2, 1.0, -1.7, -2.4, 0.3).finished(); }

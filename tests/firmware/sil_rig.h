@@ -8,6 +8,7 @@
 
 #include "reed/bus/codec/messages.h"
 #include "reed/bus/transport/memory_transport.h"
+#include "reed/config/schema/halves.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/firmware/cycle/make_cycle.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
@@ -33,9 +34,9 @@ class SilRig {
 
   explicit SilRig(const Scenario& scenario, bool enable = true)
       : scenario_(scenario),
-        body_(scenario_),
-        endpoint_(scenario_, wire_.plant, body_, truth_),
-        cycle_(MakeCycle(scenario_, wire_.controller, enable)) {
+        body_(PlantHalf(scenario_)),
+        endpoint_(PlantHalf(scenario_), wire_.plant, body_, truth_),
+        cycle_(MakeCycle(ControllerHalf(scenario_), wire_.controller, enable)) {
     wire_.controller.OnReceive([this] { LetPlantWork(); });
   }
 

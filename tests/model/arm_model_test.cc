@@ -10,7 +10,7 @@ namespace {
 
 TEST(ArmModel, ParametersAtTheirTruthGiveTheBodiesBack) {
   const ArmDescription description = test::SkewArm();
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(description);
+  const test::ModelArm<6, 4> arm(description);
   const Bodies<6> bodies = BodiesFor(arm, arm.p_true);
   for (int b = 0; b < 6; ++b) {
     const InertialBody& body = description.bodies[static_cast<std::size_t>(b)];
@@ -26,19 +26,19 @@ TEST(ArmModel, ParametersAtTheirTruthGiveTheBodiesBack) {
 }
 
 TEST(ArmModel, NothingIsLeftOfABodyThatItsParametersExplain) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   for (int j = 0; j < arm.first_shape[5]; ++j) EXPECT_LT(arm.shape[j].k, 6) << "link shape " << j;
 }
 
 TEST(ArmModel, ColumnsBeyondTheDescribedParametersStayZero) {
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
+  const test::ModelArm<6, 4> arm(test::SkewArm());
   EXPECT_EQ(arm.num_parameters, 3);
   EXPECT_TRUE(arm.viscous.col(3).isZero(0.0));
   EXPECT_EQ(arm.p_true(3), 0.0);
 }
 
 TEST(ArmModel, MembersFollowTheChainWithTheirSigns) {
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
+  const test::ModelArm<6, 4> arm(test::SkewArm());
   ASSERT_EQ(arm.num_members, 7);
   EXPECT_EQ(arm.member[0].axis, 2);
   EXPECT_EQ(arm.member[1].axis, 0);
@@ -49,20 +49,20 @@ TEST(ArmModel, MembersFollowTheChainWithTheirSigns) {
 }
 
 TEST(ArmModel, RefusesADescriptionOfAnotherSize) {
-  EXPECT_THROW((ArmModelFrom<6, 6>(test::ArmA5())), std::invalid_argument);
-  EXPECT_THROW((ArmModelFrom<5, 5>(test::ArmA5())), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<6, 6>(test::ArmA5())), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<5, 5>(test::ArmA5())), std::invalid_argument);
   ArmDescription arm = test::ArmA5();
   arm.sections.pop_back();
-  EXPECT_THROW((ArmModelFrom<5, 6>(arm)), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<5, 6>(arm)), std::invalid_argument);
   arm = test::ArmA5();
   arm.sections[1].length_m = 0.36;
-  EXPECT_THROW((ArmModelFrom<5, 6>(arm)), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<5, 6>(arm)), std::invalid_argument);
   arm = test::ArmA5();
   arm.bodies.pop_back();
-  EXPECT_THROW((ArmModelFrom<5, 6>(arm)), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<5, 6>(arm)), std::invalid_argument);
   arm = test::ArmA5();
   arm.torque_limit_Nm.pop_back();
-  EXPECT_THROW((ArmModelFrom<5, 6>(arm)), std::invalid_argument);
+  EXPECT_THROW((test::ModelArm<5, 6>(arm)), std::invalid_argument);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr double kAgree = 1e-10;
 
 template <int N, int P>
-void ExpectAgreement(const ArmModel<N, P>& arm, JointModel joints, test::Draw& draw) {
+void ExpectAgreement(const test::ModelArm<N, P>& arm, JointModel joints, test::Draw& draw) {
   Kinematics<N> kin;
   ForwardKinematics<N>(arm, draw.Vector<N>(3.0), Vec<N>::Zero(), kin);
   StructuralLoads<N> loads;
@@ -43,21 +43,21 @@ void ExpectAgreement(const ArmModel<N, P>& arm, JointModel joints, test::Draw& d
 }
 
 TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnA5) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(21);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }
 
 TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnASkewArm) {
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
+  const test::ModelArm<6, 4> arm(test::SkewArm());
   test::Draw draw(22);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }
 
 TEST(SerialCompliance, MatricesAreTheTipsAnswerToUnitWrenches) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(23);
   for (int n = 0; n < 20; ++n) {
     Kinematics<5> kin;
@@ -80,7 +80,7 @@ TEST(SerialCompliance, AStraightArmIsOneCantilever) {
   description.dh[0].d_m = 0.0;
   description.dh[4].d_m = 0.0;
   description.sections = {description.sections[1], description.sections[2]};
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(description);
+  const test::ModelArm<5, 6> arm(description);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>::Zero(), Vec<5>::Zero(), kin);
   const Mat6 C = LinkCompliance(arm, kin);
@@ -95,7 +95,7 @@ TEST(SerialCompliance, AStraightArmIsOneCantilever) {
 TEST(SerialCompliance, AnArmWithoutSectionsBendsOnlyInItsJoints) {
   ArmDescription description = test::ArmA5();
   description.sections.clear();
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(description);
+  const test::ModelArm<5, 6> arm(description);
   test::Draw draw(24);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, draw.Vector<5>(3.0), Vec<5>::Zero(), kin);

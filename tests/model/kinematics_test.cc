@@ -21,7 +21,7 @@ Eigen::Matrix4d Craig(const DhRow& row, double theta) {
 class SkewArmKinematics : public ::testing::Test {
  protected:
   const ArmDescription description_ = test::SkewArm();
-  const ArmModel<6, 4> arm_ = ArmModelFrom<6, 4>(description_);
+  const test::ModelArm<6, 4> arm_{description_};
   test::Draw draw_{1};
 
   Kinematics<6> At(const Vec<6>& q, const Vec<6>& qd) const {
@@ -90,7 +90,7 @@ TEST(EulerAngles, RebuildTheRotationTheyCameFrom) {  // (2)
 }
 
 TEST(Pose, FiveJointsReachOnlyFiveOfSixDirections) {  // (3)
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.3, 0.7, -1.1, 0.4, 0.2), Vec<5>::Zero(), kin);
   EXPECT_LT((kin.J * kin.J.transpose()).determinant(), 1e-18);

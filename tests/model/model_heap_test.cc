@@ -11,7 +11,7 @@ namespace reed::model {
 namespace {
 
 TEST(Model, OneCycleTouchesNoHeap) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(41);
   Kinematics<5> kin;
   Regressor<5, 6> regressor;

@@ -9,7 +9,7 @@ namespace reed::model {
 namespace {
 
 TEST(GeneralisedMomentum, IsMassTimesSpeedAndItsModelRateIsCTransposedMinusGravity) {
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
+  const test::ModelArm<6, 4> arm(test::SkewArm());
   const Bodies<6> bodies = BodiesFor(arm, arm.p_nominal);
   test::Draw draw(3);
   for (int n = 0; n < 300; ++n) {
@@ -24,7 +24,7 @@ TEST(GeneralisedMomentum, IsMassTimesSpeedAndItsModelRateIsCTransposedMinusGravi
 }
 
 TEST(GeneralisedMomentum, ChangesAsTheTorqueBehindItSays) {  // d/dt (M q̇) = τ + Cᵀ q̇ - G
-  const ArmModel<6, 4> arm = ArmModelFrom<6, 4>(test::SkewArm());
+  const test::ModelArm<6, 4> arm(test::SkewArm());
   const Bodies<6> bodies = BodiesFor(arm, arm.p_true);
   test::Draw draw(4);
   constexpr double h = 1e-6;

@@ -10,7 +10,7 @@ namespace {
 
 /// Where the tool point of the bent arm comes to rest with its motors at theta: the joints lag by their
 /// springs, the links bend, both at the angles that the joints really have.
-Eigen::Vector3d BentTip(const ArmModel<5, 6>& arm, const Bodies<5>& bodies, const Wrench& tip,
+Eigen::Vector3d BentTip(const test::ModelArm<5, 6>& arm, const Bodies<5>& bodies, const Wrench& tip,
                         const Vec<5>& theta) {
   Vec<5> q = theta;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -33,7 +33,7 @@ struct TipErrors {
   double without, with;
 };
 
-TipErrors Compare(const ArmModel<5, 6>& arm, const Vec<5>& q, const Wrench& tip) {
+TipErrors Compare(const test::ModelArm<5, 6>& arm, const Vec<5>& q, const Wrench& tip) {
   Kinematics<5> plan;
   ForwardKinematics<5>(arm, q, Vec<5>::Zero(), plan);
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
@@ -49,7 +49,7 @@ Vec<5> MidPose(test::Draw& draw) {
 }
 
 TEST(StaticDeflection, TheBentTipGoesWhereThePlannedTipIs) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(31);
   for (int n = 0; n < 200; ++n) {
     const TipErrors error = Compare(arm, MidPose(draw), Wrench{});
@@ -59,7 +59,7 @@ TEST(StaticDeflection, TheBentTipGoesWhereThePlannedTipIs) {
 }
 
 TEST(StaticDeflection, CountsTheForceOfAContact) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(32);
   for (int n = 0; n < 200; ++n) {
     const TipErrors error = Compare(arm, MidPose(draw), {draw.Vector<3>(15.0), Eigen::Vector3d::Zero()});
@@ -70,7 +70,7 @@ TEST(StaticDeflection, CountsTheForceOfAContact) {
 TEST(StaticDeflection, FollowsSpringsThatHarden) {
   ArmDescription description = test::ArmA5();
   description.joint_hardening_Nmprad3 = std::vector<double>(5, 5e9);  // as stiff again at 1.3 mrad
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(description);
+  const test::ModelArm<5, 6> arm(description);
   test::Draw draw(33);
   for (int n = 0; n < 50; ++n) {
     const TipErrors error = Compare(arm, MidPose(draw), {draw.Vector<3>(15.0), Eigen::Vector3d::Zero()});
@@ -79,7 +79,7 @@ TEST(StaticDeflection, FollowsSpringsThatHarden) {
 }
 
 TEST(StaticDeflection, MotorLeadsJointByTorqueOverStiffness) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.2, 0.8, -1.4, 0.3, 0.1), Vec<5>::Zero(), kin);
@@ -88,7 +88,7 @@ TEST(StaticDeflection, MotorLeadsJointByTorqueOverStiffness) {
 }
 
 TEST(StaticDeflection, AStretchedArmGetsAFiniteAnswer) {
-  const ArmModel<5, 6> arm = ArmModelFrom<5, 6>(test::ArmA5());
+  const test::ModelArm<5, 6> arm(test::ArmA5());
   const Bodies<5> bodies = BodiesFor(arm, arm.p_true);
   Kinematics<5> kin;
   ForwardKinematics<5>(arm, Vec<5>(0.0, 1.5707963267948966, 0.0, -1.5707963267948966, 0.0), Vec<5>::Zero(),

@@ -17,7 +17,7 @@ template <typename Size>
 class Identities : public ::testing::Test {
  protected:
   using Joints = Vec<Size::kN>;
-  const ArmModel<Size::kN, Size::kP> arm_ = ArmModelFrom<Size::kN, Size::kP>(Size::Describe());
+  const test::ModelArm<Size::kN, Size::kP> arm_{Size::Describe()};
   const Bodies<Size::kN> bodies_ = BodiesFor(arm_, arm_.p_true);
   test::Draw draw_{7};
 

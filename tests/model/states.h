@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "reed/core/model/arm_model.h"
 #include "reed/tests/support/arms.h"
+#include "reed/tests/support/model_arm.h"
 
 namespace reed::test {
 

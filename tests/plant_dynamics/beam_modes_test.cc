@@ -43,7 +43,7 @@ class BeamModesTest : public testing::TestWithParam<double> {
 };
 
 TEST_P(BeamModesTest, DefaultDiscretisationMeetsTheFirstThreeModes) {
-  const std::vector<double> error = RelativeErrors(PlantConfig{}.elements_per_link);
+  const std::vector<double> error = RelativeErrors(PlantModelConfig{}.elements_per_link);
   EXPECT_LT(std::abs(error[0]), 0.005);
   EXPECT_LT(std::abs(error[1]), 0.02);
   EXPECT_LT(std::abs(error[2]), 0.05);

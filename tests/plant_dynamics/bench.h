@@ -1,16 +1,16 @@
 // Scenes that the plant's tests share.
 #pragma once
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/schema/halves.h"
 #include "reed/plant/dynamics/arm_plant.h"
 #include "reed/tests/support/arms.h"
 
 namespace reed::test {
 
 /// a5 without friction and damping.
-inline Scenario LosslessA5() {
-  Scenario scene;
-  scene.arm = ArmA5();
+inline PlantConfig LosslessA5() {
+  PlantConfig scene;
+  scene.arm = TrueOf(ArmA5());
   scene.plant.friction_scale = 0.0;
   scene.plant.damping_ratio = 0.0;
   return scene;

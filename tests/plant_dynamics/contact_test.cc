@@ -60,8 +60,8 @@ TEST(Wall, FrictionStaysInItsConeAndReachesIt) {
 
 TEST(Wall, ArmComesToRestWhereSpringsAndWallBalance) {
   // GIVEN the arm at rest and its motors held by the brakes, WHEN a wall stands 2 mm into where the tip is
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   scene.plant.damping_ratio = 0.05;
   ArmModes statics(scene.arm, scene.plant, test::MidPose());
   const Vector3d rest = statics.Load(Vector3d::Zero(), true);
@@ -81,8 +81,8 @@ TEST(Wall, ArmComesToRestWhereSpringsAndWallBalance) {
 }
 
 TEST(Wall, SlidingTipFeelsCoulombFriction) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   ArmPlant probe(scene);
   probe.Reset(test::MidPose());
   scene.wall = Floor();
@@ -108,8 +108,8 @@ TEST(Wall, SlidingTipFeelsCoulombFriction) {
 }
 
 TEST(Brakes, HoldWithoutCreepUnderGravity) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   scene.plant.damping_ratio = 0.05;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
@@ -122,8 +122,8 @@ TEST(Brakes, HoldWithoutCreepUnderGravity) {
 }
 
 TEST(Brakes, StopAMovingArm) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
   VectorXd torque(5);
@@ -165,8 +165,8 @@ TEST(Disturbance, IsSeededAndMadeOfItsParts) {
 }
 
 TEST(Disturbance, PushesTheArm) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   scene.disturbance.step_N = {0.0, 5.0, 0.0};
   scene.disturbance.step_s = 0.05;
   ArmPlant plant(scene);

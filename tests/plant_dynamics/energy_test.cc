@@ -12,7 +12,7 @@ namespace {
 using Eigen::VectorXd;
 
 TEST(Energy, FreeFlexibleArmKeepsItsEnergyForTenSeconds) {
-  Scenario scene = test::LosslessA5();
+  PlantConfig scene = test::LosslessA5();
   scene.plant.max_step_s = 20e-6;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
@@ -29,7 +29,7 @@ TEST(Energy, FreeFlexibleArmKeepsItsEnergyForTenSeconds) {
 }
 
 TEST(Energy, MotorPowerBecomesEnergyOfTheArm) {
-  Scenario scene = test::LosslessA5();
+  PlantConfig scene = test::LosslessA5();
   scene.plant.max_step_s = 20e-6;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
@@ -49,7 +49,7 @@ TEST(Energy, MotorPowerBecomesEnergyOfTheArm) {
 }
 
 TEST(Energy, ViscousFrictionTakesItsPower) {
-  Scenario scene = test::LosslessA5();
+  PlantConfig scene = test::LosslessA5();
   scene.plant.friction_scale = 1.0;
   scene.arm.coulomb_Nm.clear();
   scene.plant.max_step_s = 20e-6;
@@ -70,7 +70,7 @@ TEST(Energy, ViscousFrictionTakesItsPower) {
 }
 
 TEST(Energy, StructuralDampingOnlyTakesEnergy) {
-  Scenario scene = test::LosslessA5();
+  PlantConfig scene = test::LosslessA5();
   scene.plant.damping_ratio = 0.02;
   scene.plant.max_step_s = 50e-6;
   ArmPlant plant(scene);

@@ -6,6 +6,7 @@
 #include "reed/firmware/stiffness/finite_matrix_arm.h"
 #include "reed/plant/dynamics/modes.h"
 #include "reed/tests/plant_dynamics/bench.h"
+#include "reed/tests/support/model_arm.h"
 
 namespace reed {
 namespace {
@@ -15,8 +16,7 @@ using model::Vec;
 
 class AgreementTest : public testing::TestWithParam<std::vector<double>> {
  protected:
-  AgreementTest()
-      : arm_(model::ArmModelFrom<5, 6>(test::ArmA5())), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
+  AgreementTest() : arm_(test::ArmA5()), q_(Eigen::Map<const Vec<5>>(GetParam().data())) {
     model::ForwardKinematics<5>(arm_, q_, Vec<5>::Zero(), kin_);
   }
 
@@ -29,13 +29,13 @@ class AgreementTest : public testing::TestWithParam<std::vector<double>> {
     return structure.matrix.Displacement(structure.tip, structure.matrix.Solve()).head<3>();
   }
 
-  const model::ArmModel<5, 6> arm_;
+  const test::ModelArm<5, 6> arm_;
   const Vec<5> q_;
   model::Kinematics<5> kin_;
 };
 
 TEST_P(AgreementTest, SagIsThatOfTheFiniteMatrixAnalysis) {
-  plant::ArmModes plant(test::ArmA5(), PlantConfig{}, q_);
+  plant::ArmModes plant(TrueOf(test::ArmA5()), PlantModelConfig{}, q_);
   const Vector3d sag = plant.Load(Vector3d::Zero(), true) - kin_.tip;
   const Vector3d expected = FiniteMatrixTip(true, Vector3d::Zero());
   EXPECT_GT(expected.norm(), 1e-4);
@@ -43,7 +43,7 @@ TEST_P(AgreementTest, SagIsThatOfTheFiniteMatrixAnalysis) {
 }
 
 TEST_P(AgreementTest, TipStiffnessIsThatOfTheFiniteMatrixAnalysis) {
-  plant::ArmModes plant(test::ArmA5(), PlantConfig{}, q_);
+  plant::ArmModes plant(TrueOf(test::ArmA5()), PlantModelConfig{}, q_);
   const Vector3d rest = plant.Load(Vector3d::Zero(), true);
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d force = 5.0 * Vector3d::Unit(axis);
@@ -55,7 +55,8 @@ TEST_P(AgreementTest, TipStiffnessIsThatOfTheFiniteMatrixAnalysis) {
 TEST_P(AgreementTest, NodalCompensationBringsThePlantsTipToThePlan) {
   const model::Bodies<5> bodies = model::BodiesFor(arm_, arm_.p_true);
   const Vec<5> theta_d = q_ + model::CompensateDeflection(arm_, kin_, bodies, model::Wrench{}).offset;
-  plant::ArmModes plain(test::ArmA5(), PlantConfig{}, q_), compensated(test::ArmA5(), PlantConfig{}, theta_d);
+  plant::ArmModes plain(TrueOf(test::ArmA5()), PlantModelConfig{}, q_),
+      compensated(TrueOf(test::ArmA5()), PlantModelConfig{}, theta_d);
   const double without = (plain.Load(Vector3d::Zero(), true) - kin_.tip).norm();
   const double with = (compensated.Load(Vector3d::Zero(), true) - kin_.tip).norm();
   EXPECT_LT(3.0 * with, without);

@@ -12,8 +12,8 @@ namespace {
 using Eigen::VectorXd;
 
 /// a5 with mass in its first link too, so that M is regular, a tool offset, and springs that harden.
-ArmDescription RegularArm() {
-  ArmDescription arm = test::ArmA5();
+TrueArm RegularArm() {
+  TrueArm arm = TrueOf(test::ArmA5());
   arm.bodies[0] = {2.0, {0.02, -0.01, -0.08}, Eigen::Vector3d(0.12, 0.13, 0.15).asDiagonal()};
   arm.bodies[3] = {0.2, {0.01, 0.0, 0.02}, 1e-3 * Eigen::Matrix3d::Identity()};
   arm.tool_offset_m = {0.03, 0.01, 0.05};
@@ -25,7 +25,7 @@ ArmDescription RegularArm() {
 class LagrangeTest : public testing::TestWithParam<int> {
  protected:
   LagrangeTest() {
-    PlantConfig config;
+    PlantModelConfig config;
     config.elements_per_link = 1 + GetParam() % 2;
     config.friction_scale = 0.0;
     config.stiffness_scale =
@@ -133,9 +133,9 @@ INSTANTIATE_TEST_SUITE_P(RandomStates, LagrangeTest, testing::Range(0, 10));
 
 TEST(MassSplit, MembersAndRestAreTheWholeLink) {
   // The arm that bends, held straight, has the inertia of the rigid one.
-  PlantConfig rigid, bending;
+  PlantModelConfig rigid, bending;
   rigid.flexible_links = false;
-  const ArmDescription arm = RegularArm();
+  const TrueArm arm = RegularArm();
   const ArmChain rigid_chain = BuildChain(arm, rigid), bending_chain = BuildChain(arm, bending);
   const Wall wall(WallConfig{});
   EquationsOfMotion stiff(rigid_chain, wall), soft(bending_chain, wall);

@@ -59,8 +59,8 @@ void PrintArm() {
 }
 
 void Swing(bool links_bend, double stiffness_scale, double step_s, int duration_ms) {
-  reed::Scenario scene;
-  scene.arm = reed::test::ArmA5();
+  reed::PlantConfig scene;
+  scene.arm = reed::TrueOf(reed::test::ArmA5());
   scene.arm.coulomb_Nm.clear();
   scene.plant.flexible_links = links_bend;
   scene.plant.stiffness_scale = stiffness_scale;
@@ -94,9 +94,9 @@ void Load(char** args) {
   VectorXd q(5);
   for (Eigen::Index i = 0; i < 5; ++i) q[i] = std::atof(args[i]);
   const Eigen::Vector3d force(std::atof(args[5]), std::atof(args[6]), std::atof(args[7]));
-  reed::PlantConfig config;
+  reed::PlantModelConfig config;
   config.joint_stiffness_scale = 1e9;
-  reed::plant::ArmModes arm(reed::test::ArmA5(), config, q);
+  reed::plant::ArmModes arm(reed::TrueOf(reed::test::ArmA5()), config, q);
   const Eigen::Vector3d rest = arm.Load(Eigen::Vector3d::Zero(), false);
   std::printf("{");
   PrintList("tip", rest, ", ");
@@ -104,9 +104,9 @@ void Load(char** args) {
 }
 
 /// `joints` equal links of 0.2 m, every second one twisted by a right angle.
-reed::ArmDescription Zigzag(int joints) {
+reed::TrueArm Zigzag(int joints) {
   constexpr double kLength = 0.2, kMass = 0.4, kAcross = kMass * kLength * kLength / 12.0;
-  reed::ArmDescription arm;
+  reed::TrueArm arm;
   arm.name = "zigzag";
   for (int i = 0; i < joints; ++i) {
     arm.dh.push_back({i % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi, 0.0, kLength});
@@ -121,8 +121,8 @@ reed::ArmDescription Zigzag(int joints) {
 
 /// The motors hold their start by a servo, torque held for 1 ms, while the tool presses on a wall.
 void Bench(int joints, bool links_bend, int elements, double step_s, double seconds) {
-  reed::Scenario scene;
-  scene.arm = joints > 0 ? Zigzag(joints) : reed::test::ArmA5();
+  reed::PlantConfig scene;
+  scene.arm = joints > 0 ? Zigzag(joints) : reed::TrueOf(reed::test::ArmA5());
   scene.plant.flexible_links = links_bend;
   scene.plant.elements_per_link = elements;
   scene.plant.max_step_s = step_s;

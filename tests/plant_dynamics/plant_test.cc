@@ -13,9 +13,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Scenario Pressing() {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+PlantConfig Pressing() {
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   scene.wall.present = true;
   scene.disturbance.amplitude_N = {0.2, 0.1, 0.3};
   scene.disturbance.frequencies_hz = {3.0, 17.0};
@@ -92,7 +92,7 @@ TEST(ArmPlant, ShapeStaysOffTheHeap) {
 
 TEST(ArmPlant, SmallerStepsConvergeWithTheSquareOfTheStep) {
   const auto end = [](double step) {
-    Scenario scene = test::LosslessA5();
+    PlantConfig scene = test::LosslessA5();
     scene.plant.damping_ratio = 0.02;
     scene.plant.max_step_s = step;
     ArmPlant plant(scene);
@@ -107,7 +107,7 @@ TEST(ArmPlant, SmallerStepsConvergeWithTheSquareOfTheStep) {
 }
 
 TEST(ArmPlant, StepsAreNoLongerThanAllowedAndFillTheTime) {
-  Scenario scene = Pressing();
+  PlantConfig scene = Pressing();
   scene.plant.max_step_s = 0.3e-3;
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
@@ -116,8 +116,8 @@ TEST(ArmPlant, StepsAreNoLongerThanAllowedAndFillTheTime) {
 }
 
 TEST(ArmPlant, PayloadComesWhenItShallAndWeighsWhatItShall) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   scene.plant.damping_ratio = 0.05;
   scene.plant.payload_step_kg = 1.0;
   scene.plant.payload_step_s = 0.1;
@@ -159,11 +159,11 @@ TEST(ArmPlant, AbsurdSpeedIsNamedWithItsJoint) {
   EXPECT_NE(plant.ailment().find("motor 5"), std::string::npos) << plant.ailment();
 }
 
-class RefusedArmTest : public testing::TestWithParam<std::pair<const char*, void (*)(Scenario&)>> {};
+class RefusedArmTest : public testing::TestWithParam<std::pair<const char*, void (*)(PlantConfig&)>> {};
 
 TEST_P(RefusedArmTest, SaysWhatIsMissing) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   GetParam().second(scene);
   try {
     ArmPlant plant(scene);
@@ -177,27 +177,27 @@ INSTANTIATE_TEST_SUITE_P(
     Arms, RefusedArmTest,
     testing::Values(
         std::pair(
-            "rotor inertia of every joint", +[](Scenario& s) { s.arm.rotor_inertia_kgm2.clear(); }),
+            "rotor inertia of every joint", +[](PlantConfig& s) { s.arm.rotor_inertia_kgm2.clear(); }),
         std::pair(
-            "rotor inertia of joint 2", +[](Scenario& s) { s.arm.rotor_inertia_kgm2[1] = 0.0; }),
+            "rotor inertia of joint 2", +[](PlantConfig& s) { s.arm.rotor_inertia_kgm2[1] = 0.0; }),
         std::pair(
-            "stiffness of joint 3", +[](Scenario& s) { s.arm.joint_stiffness_Nmprad[2] = -1.0; }),
+            "stiffness of joint 3", +[](PlantConfig& s) { s.arm.joint_stiffness_Nmprad[2] = -1.0; }),
         std::pair(
-            "section 4 is needed", +[](Scenario& s) { s.arm.sections.pop_back(); }),
+            "section 4 is needed", +[](PlantConfig& s) { s.arm.sections.pop_back(); }),
         std::pair(
-            "5 sections are given", +[](Scenario& s) { s.arm.sections.push_back(s.arm.sections[0]); }),
+            "5 sections are given", +[](PlantConfig& s) { s.arm.sections.push_back(s.arm.sections[0]); }),
         std::pair(
-            "section 2 has length", +[](Scenario& s) { s.arm.sections[1].length_m = 0.3; }),
+            "section 2 has length", +[](PlantConfig& s) { s.arm.sections[1].length_m = 0.3; }),
         std::pair(
-            "section 3 needs positive", +[](Scenario& s) { s.arm.sections[2].EI_Nm2 = 0.0; }),
+            "section 3 needs positive", +[](PlantConfig& s) { s.arm.sections[2].EI_Nm2 = 0.0; }),
         std::pair(
-            "one body per link", +[](Scenario& s) { s.arm.bodies.pop_back(); }),
+            "one body per link", +[](PlantConfig& s) { s.arm.bodies.pop_back(); }),
         std::pair(
-            "max_step_s", +[](Scenario& s) { s.plant.max_step_s = 0.0; }),
+            "max_step_s", +[](PlantConfig& s) { s.plant.max_step_s = 0.0; }),
         std::pair(
-            "elements_per_link", +[](Scenario& s) { s.plant.elements_per_link = 0; }),
+            "elements_per_link", +[](PlantConfig& s) { s.plant.elements_per_link = 0; }),
         std::pair(
-            "stiffness scales", +[](Scenario& s) { s.plant.stiffness_scale = 0.0; })));
+            "stiffness scales", +[](PlantConfig& s) { s.plant.stiffness_scale = 0.0; })));
 
 }  // namespace
 }  // namespace reed::plant

@@ -17,8 +17,8 @@ constexpr double kImmovableRotor = 1e14;  // kg·m²: turns exactly as its torqu
 
 /// A beam on a turntable. The second joint, at the tip, carries nothing; it is there because an arm's member
 /// along x belongs to the row that follows it.
-Scenario Turntable(int elements) {
-  Scenario scene;
+PlantConfig Turntable(int elements) {
+  PlantConfig scene;
   scene.arm.name = "turntable";
   scene.arm.gravity_mps2.setZero();
   scene.arm.dh = {{0.0, 0.0, 0.0}, {0.0, kLength, 0.0}};

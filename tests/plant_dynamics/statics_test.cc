@@ -25,7 +25,7 @@ struct Weight {
 /// a5 as lines and springs in space, undeformed. Only what a5 needs: one member per link 1, 2, 3 and 5.
 struct Frame {
   explicit Frame(const VectorXd& q) {
-    const ArmDescription arm = test::ArmA5();
+    const TrueArm arm = TrueOf(test::ArmA5());
     Matrix3d R = Matrix3d::Identity();
     Vector3d p = Vector3d::Zero();
     std::size_t section = 0;
@@ -89,7 +89,7 @@ struct Frame {
                      N.dot(direction[m]) * unit.dot(direction[m]) / sections[m].EA_N);
       }
     }
-    const ArmDescription arm = test::ArmA5();
+    const TrueArm arm = TrueOf(test::ArmA5());
     for (std::size_t i = 0; i < joint_at.size(); ++i) {
       Vector3d N = tip_force, M = (tool - joint_at[i]).cross(tip_force);
       if (gravity) Gather(joint_first_member[i], -1.0, joint_at[i], N, M);
@@ -120,7 +120,7 @@ class StaticsTest : public testing::TestWithParam<std::vector<double>> {
 };
 
 TEST_P(StaticsTest, TipForceMovesTheTipAsVirtualWorkSays) {
-  ArmModes arm(test::ArmA5(), PlantConfig{}, q());
+  ArmModes arm(TrueOf(test::ArmA5()), PlantModelConfig{}, q());
   const Frame frame(q());
   const Vector3d rest = arm.Load(Vector3d::Zero(), false);
   EXPECT_LT((rest - frame.tool).norm(), 1e-12);
@@ -135,7 +135,7 @@ TEST_P(StaticsTest, TipForceMovesTheTipAsVirtualWorkSays) {
 }
 
 TEST_P(StaticsTest, SagUnderItsOwnWeightIsThatOfVirtualWork) {
-  ArmModes arm(test::ArmA5(), PlantConfig{}, q());
+  ArmModes arm(TrueOf(test::ArmA5()), PlantModelConfig{}, q());
   const Frame frame(q());
   const Vector3d sag = arm.Load(Vector3d::Zero(), true) - frame.tool;
   Vector3d expected;
@@ -152,8 +152,8 @@ INSTANTIATE_TEST_SUITE_P(Poses, StaticsTest,
                                          std::vector{2.0, -0.3, 1.1, 1.4, -0.7}));
 
 TEST(Statics, PlantStartsWhereTheStaticArmRests) {
-  Scenario scene;
-  scene.arm = test::ArmA5();
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
   ArmModes arm(scene.arm, scene.plant, test::MidPose());
@@ -164,19 +164,19 @@ TEST(Statics, PlantStartsWhereTheStaticArmRests) {
 
 TEST(Statics, MoreElementsFindTheSameSag) {
   const auto sag = [](int elements) {
-    PlantConfig config;
+    PlantModelConfig config;
     config.elements_per_link = elements;
-    ArmModes arm(test::ArmA5(), config, test::MidPose());
+    ArmModes arm(TrueOf(test::ArmA5()), config, test::MidPose());
     return Vector3d(arm.Load({3.0, -4.0, -5.0}, true) - arm.Undeformed().back());
   };
   EXPECT_LT((sag(1) - sag(4)).norm(), 1e-5 * sag(4).norm());
 }
 
 TEST(Statics, HardeningSpringGivesLess) {
-  ArmDescription arm = test::ArmA5();
-  ArmModes linear(arm, PlantConfig{}, test::MidPose());
+  TrueArm arm = TrueOf(test::ArmA5());
+  ArmModes linear(arm, PlantModelConfig{}, test::MidPose());
   arm.joint_hardening_Nmprad3.assign(5, 5e9);
-  ArmModes hardening(arm, PlantConfig{}, test::MidPose());
+  ArmModes hardening(arm, PlantModelConfig{}, test::MidPose());
   const Vector3d force(0.0, 0.0, -20.0);
   const double soft = linear.Load(force, false).z() - linear.Load(Vector3d::Zero(), false).z();
   const double hard = hardening.Load(force, false).z() - hardening.Load(Vector3d::Zero(), false).z();
@@ -184,11 +184,11 @@ TEST(Statics, HardeningSpringGivesLess) {
 }
 
 TEST(Statics, ModesOfTheArmAtMidPose) {
-  ArmModes arm(test::ArmA5(), PlantConfig{}, test::MidPose());
+  ArmModes arm(TrueOf(test::ArmA5()), PlantModelConfig{}, test::MidPose());
   ArmModes fine(
-      test::ArmA5(),
+      TrueOf(test::ArmA5()),
       [] {
-        PlantConfig c;
+        PlantModelConfig c;
         c.elements_per_link = 4;
         return c;
       }(),

@@ -103,8 +103,8 @@ TEST(TorqueOutput, SaturatesBeyondTheLimit) {
 
 class DriveChainTest : public ::testing::Test {
  protected:
-  static ArmDescription TwoJoints() {
-    ArmDescription arm;
+  static TrueArm TwoJoints() {
+    TrueArm arm;
     arm.dh.resize(2);
     arm.torque_limit_Nm = {40.0, 8.0};
     return arm;

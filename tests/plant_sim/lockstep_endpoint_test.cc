@@ -74,7 +74,7 @@ TEST_F(Lockstep, TheShapeIsRecordedAboutSixtyTimesPerSecond) {
 }
 
 TEST_F(Lockstep, UtimeIsRoundedWhenThePeriodIsNoWholeMicrosecond) {
-  Scenario scenario = TwoJointScenario();
+  PlantConfig scenario = TwoJointScenario();
   scenario.timing.rate_hz = 3000.0;
   Start(scenario);
   for (std::uint32_t k = 0; k < 4; ++k) SyncAndTake(k);
@@ -106,7 +106,7 @@ TEST_F(Lockstep, BrakesCloseAfter20CyclesWithoutACommand) {
 }
 
 TEST_F(Lockstep, TheWrenchStopsInItsWindowCountedFromEnabling) {
-  Scenario scenario = TwoJointScenario();
+  PlantConfig scenario = TwoJointScenario();
   scenario.sensors.wrench_lost_from_s = 0.010;
   scenario.sensors.wrench_lost_to_s = 0.015;
   Start(scenario);
@@ -123,7 +123,7 @@ TEST_F(Lockstep, TheWrenchStopsInItsWindowCountedFromEnabling) {
 }
 
 TEST_F(Lockstep, TheWrenchIsTheForceOnTheRobotInBaseAxes) {
-  Scenario scenario = TwoJointScenario();
+  PlantConfig scenario = TwoJointScenario();
   scenario.sensors.force_noise_N = 0.0;
   body_.force_N = Eigen::Vector3d(1.0, -2.0, 8.25);
   Start(scenario);
@@ -136,7 +136,7 @@ TEST_F(Lockstep, TheWrenchIsTheForceOnTheRobotInBaseAxes) {
 
 TEST_F(Lockstep, EqualSeedsGiveEqualFramesAndAnotherSeedDoesNot) {
   const auto run = [](std::int64_t seed) {
-    Scenario scenario = TwoJointScenario();
+    PlantConfig scenario = TwoJointScenario();
     scenario.seed = seed;
     test::FakeWire wire;
     RotorBody body;

@@ -14,7 +14,7 @@ inline constexpr double kTau_Nm = 4.0;
 
 class Lockstep : public ::testing::Test {
  protected:
-  void Start(const Scenario& scenario) {
+  void Start(const PlantConfig& scenario) {
     endpoint_ = std::make_unique<LockstepEndpoint>(scenario, wire_.plant, body_, recorder_);
   }
   Lockstep() { Start(TwoJointScenario()); }

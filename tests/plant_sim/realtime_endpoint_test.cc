@@ -110,7 +110,7 @@ TEST_F(Realtime, AnArmThatNobodyAsksMovesOnUnderForeignFramesAllTheSame) {
 TEST_F(Realtime, StepsAreBoundedHoweverLongNoFrameCame) {
   Enable();
   At(10 * kMs);
-  EXPECT_LE(body_.longest_step_s, PlantConfig{}.max_step_s * (1.0 + 1e-9));
+  EXPECT_LE(body_.longest_step_s, PlantModelConfig{}.max_step_s * (1.0 + 1e-9));
   EXPECT_NEAR(endpoint_->robot().time_s(), 10e-3, 1e-12);
 }
 

@@ -200,6 +200,10 @@ TEST(WrenchSensor, IsLostFromTheFirstInstantOfTheWindowToBeforeItsEnd) {
   EXPECT_TRUE(sensor.Lost(1.0));
   EXPECT_TRUE(sensor.Lost(1.999));
   EXPECT_FALSE(sensor.Lost(2.0));
+  config.wrench_lost_to_s = -1.0;  // never back
+  EXPECT_FALSE(WrenchSensor(config, 1).Lost(0.999));
+  EXPECT_TRUE(WrenchSensor(config, 1).Lost(1.0));
+  EXPECT_TRUE(WrenchSensor(config, 1).Lost(1e6));
 }
 
 }  // namespace

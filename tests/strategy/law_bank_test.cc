@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/config/schema/halves.h"
 #include "reed/firmware/setup/settings.h"
 #include "reed/tests/support/arms.h"
 
@@ -15,8 +16,8 @@ using VecP = model::Vec<P>;
 
 class LawBankTest : public testing::Test {
  protected:
-  LawBankTest() : arm(model::ArmModelFrom<N, P>(test::ArmA5())) {
-    scenario.arm = test::ArmA5();
+  LawBankTest() : arm(model::ArmModelFrom<N, P>(NominalOf(test::ArmA5()))) {
+    scenario.arm = NominalOf(test::ArmA5());
     scenario.control.K_d = {45.0, 41.0, 24.0, 7.5, 4.2};
     scenario.control.Lambda = {20.0, 20.0, 20.0, 20.0, 20.0};
     VecN q, qd;
@@ -60,7 +61,7 @@ class LawBankTest : public testing::Test {
   }
 
   model::ArmModel<N, P> arm;
-  Scenario scenario;
+  ControllerConfig scenario;
   model::Kinematics<N> kin;
   control::Auxiliary<N> aux;
   VecN s, JtF_d, r;

@@ -12,11 +12,11 @@ BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"
 # scenario, what is set, words of the message
 REFUSED = {
     "a damping that chatters at one cycle of delay": (
-        "press_known", ["control.K_d=[33, 30, 18, 5.5, 40]"], ["control.K_d", "joint 5", "rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate"]),
+        "press_known", ["control.K_d=[33, 30, 18, 5.5, 40]"], ["control.K_d", "joint 5", "rule K_d (1 + (sigma0_max + sigma1_max/phi) / 10) <= 0.6 J_m rate"]),
     "a boundary layer so thin that the sliding term chatters": (
-        "fluctuating_unknown", ["control.phi=0.001"], ["rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate"]),
+        "fluctuating_unknown", ["control.phi=0.001"], ["rule K_d (1 + (sigma0_max + sigma1_max/phi) / 10) <= 0.6 J_m rate"]),
     "gains that are sound at 1 kHz on a slower loop": (
-        "press_known", ["timing.rate_hz=200"], ["rule K_d + sigma0_max + sigma1_max/phi <= 0.6 J_m rate"]),
+        "press_known", ["timing.rate_hz=200"], ["rule K_d (1 + (sigma0_max + sigma1_max/phi) / 10) <= 0.6 J_m rate"]),
     "an integral too strong for the force loop": (
         "press_known", ["control.k_i=0.25"], ["control.k_i", "rule k_i < a_force k_p", "0.25", "0.24"]),
     "a negative damping": ("press_known", ["control.K_d=-1"], ["control.K_d", "-1", "0 ... 10000 N·m·s/rad"]),

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "reed/config/description/arm_description.h"
+#include "reed/config/schema/arm_description.h"
 #include "reed/inspect/named_values.h"
 
 namespace reed::inspect {

@@ -2,7 +2,6 @@
 // which instantiate it, so that the recursions are compiled once per number of joints. RT: set-up only.
 #pragma once
 
-#include "reed/firmware/setup/arm_model.h"
 #include "reed/inspect/arm_inspector.h"
 #include "reed/inspect/control_cases.h"
 #include "reed/inspect/elastic_cases.h"
@@ -14,7 +13,7 @@ template <int N>
 class ArmInspectorFor final : public ArmInspector {
  public:
   explicit ArmInspectorFor(const ArmDescription& description)
-      : arm_(model::ArmModelFrom<N, kMaxParameters>(description)) {}
+      : arm_(description) {}
 
   NamedValues Inspect(const NamedValues& in) const override {
     NamedValues out;

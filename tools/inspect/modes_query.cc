@@ -85,7 +85,7 @@ void WriteArmModes(std::ostream& out, const ArmDescription& arm, const std::vect
     motors = Eigen::Map<const Eigen::VectorXd>(q.data(), std::ssize(q));
     if (!motors.allFinite()) throw CaseError("--at: expected finite angles in rad");
   }
-  plant::ArmModes bent(arm, PlantConfig{}, motors);
+  plant::ArmModes bent(TrueOf(arm), PlantModelConfig{}, motors);
   bent.Load(Eigen::Vector3d::Zero(), true);
   Json result;
   result["arm"] = arm.name;

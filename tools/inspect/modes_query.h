@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "reed/config/description/scenario.h"
+#include "reed/config/schema/halves.h"
 
 namespace reed::inspect {
 
 /// A clamped beam from "length=...,EI=...,rhoA=...[,tip_mass=...][,elements=...]" (m, N·m², kg/m, kg, 1).
 struct BeamQuery {
   double length_m = 0.0, EI_Nm2 = 0.0, rhoA_kgpm = 0.0, tip_mass_kg = 0.0;
-  double elements = PlantConfig{}.elements_per_link;
+  double elements = PlantModelConfig{}.elements_per_link;
 };
 
 /// Throws CaseError naming the key and what is allowed.

@@ -1,14 +1,26 @@
 // Kinematics (1)-(3), rigid dynamics (20) and regressor (28) of a case. RT: set-up only.
 #pragma once
 
+#include "reed/config/schema/halves.h"
 #include "reed/core/model/dynamics.h"
 #include "reed/core/model/regressor.h"
+#include "reed/firmware/setup/arm_model.h"
 #include "reed/inspect/named_values.h"
 
 namespace reed::inspect {
 
+/// The controller's model of the arm, and the true parameters that the numbers are asked for.
 template <int N>
-using Arm = model::ArmModel<N, kMaxParameters>;
+struct Arm : model::ArmModel<N, kMaxParameters> {
+  explicit Arm(const ArmDescription& description)
+      : model::ArmModel<N, kMaxParameters>(model::ArmModelFrom<N, kMaxParameters>(NominalOf(description))),
+        p_true(model::Vec<kMaxParameters>::Zero()) {
+    for (int k = 0; k < description.num_parameters(); ++k)
+      p_true[k] = description.parameters[static_cast<std::size_t>(k)].truth;
+  }
+
+  model::Vec<kMaxParameters> p_true;
+};
 
 /// q → pose and Jacobian.
 template <int N>

@@ -4,6 +4,8 @@
 //   ControlArm (firmware/program) -> MemoryWire -> PlantSide -> LockstepEndpoint (plant_sim/endpoint)
 #include "options.h"
 #include "plant_side.h"
+#include "reed/config/controller/load_controller_config.h"
+#include "reed/config/plant/load_plant_config.h"
 #include "reed/plant/program/conclusion.h"
 #include "reed/plant/record/publisher.h"
 #include "reed/rt/program.h"
@@ -15,14 +17,14 @@ namespace {
 
 int Run(OneProcessOptions options) {
   rt::UseSmallThreadStacks();
-  const Scenario scenario = LoadScenario(options.config, options.load);
+  const ControllerConfig scenario = LoadControllerConfig(options.config, options.load);
   const LoopOptions loop = PlanLoop(scenario);
   const bool quiet = options.control.quiet;
 
   bus::MemoryWire wire;
   plant::Publisher publisher(
       {options.plant_log, options.control.lcm, !quiet, plant::WhenFull::kWait, &rt::StopFlag()});
-  PlantSide side(scenario, wire, publisher);
+  PlantSide side(LoadPlantConfig(options.config, options.load), wire, publisher);
   options.control.for_others = &side.usage();
 
   const int controller = ControlArm(options.control, scenario, loop, wire.controller);

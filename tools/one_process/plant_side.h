@@ -15,8 +15,8 @@ namespace reed {
 class PlantSide {
  public:
   /// `wire` and `recorder` outlive it.
-  PlantSide(const Scenario& scenario, bus::MemoryWire& wire, plant::Recorder& recorder)
-      : body_(scenario), endpoint_(scenario, wire.plant, body_, recorder), controller_(wire.controller) {
+  PlantSide(const PlantConfig& config, bus::MemoryWire& wire, plant::Recorder& recorder)
+      : body_(config), endpoint_(config, wire.plant, body_, recorder), controller_(wire.controller) {
     controller_.OnReceive([this] { Work(); });
   }
   PlantSide(const PlantSide&) = delete;

@@ -47,7 +47,7 @@ struct ArmModel {
   FixedArray<UnitShape, N*(P + 1)> shape;
   FixedArray<int, N + 1> first_shape;
   Mat<N, P> viscous;  // F_v = diag(viscous p)
-  Vec<P> p_true, p_nominal, p_lo, p_hi;
+  Vec<P> p_nominal, p_lo, p_hi;
   int num_parameters;  // columns from here to P are zero
 
   // Drive train and limits; where the description does not say: no inertia, no hardening, everything else

@@ -1,4 +1,4 @@
-"""effective.toml: the one configuration that both programs read, as a run folder keeps it."""
+"""effective.toml: the whole configuration of a run, both programs' halves, as a run folder keeps it."""
 
 import tomllib
 from pathlib import Path
@@ -14,9 +14,12 @@ NEEDED = {  # what figures, pictures and page are made from
 }
 
 
+TRUTH_BESIDE = {"p": "p_true", "bodies": "bodies", "coulomb": "coulomb"}  # of [arm.truth], as figures call it
+
+
 def load(path: Path) -> dict:
     try:
-        effective = tomllib.loads(path.read_text(encoding="utf-8"))
+        effective = with_truth_beside(tomllib.loads(path.read_text(encoding="utf-8")))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise UsageError(f"{path}: {error}") from None
     if problem := first_problem(effective):
@@ -37,6 +40,13 @@ def first_problem(effective: dict) -> str | None:
     if not all(isinstance(check.get("name"), str) and isinstance(check.get("limit"), NUMBER) for check in checks):
         return "a check has no name or no limit"
     return None
+
+
+def with_truth_beside(effective: dict) -> dict:
+    """Figures are drawn by those who may know both: [arm.truth] beside what the controller knows of the arm."""
+    arm = effective.get("arm", {})
+    truth = arm.get("truth", {}) if isinstance(arm, dict) else {}
+    return effective | {"arm": arm | {name: truth[key] for key, name in TRUTH_BESIDE.items() if key in truth}} if truth else effective
 
 
 def parameter_boxes(effective: dict) -> list[tuple[float, float]]:

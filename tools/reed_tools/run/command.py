@@ -18,7 +18,7 @@ from reed_tools.run import bus_choice, hil, live_page, origin, plans, progress, 
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = (*run_folder.FILES, "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
+OWN_FILES = (*run_folder.FILES, *hil.HALVES.values(), "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 
 
 def add_arguments(parser) -> None:
@@ -52,10 +52,11 @@ def run(arguments) -> int:
     with bus_choice.held(bus):
         with tempfile.TemporaryDirectory() as scratch:  # no run folder for a configuration that is refused
             checked = Path(scratch, "effective.toml")
-            effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked)
+            effective = scenario.write_effective(arguments.scenario, arguments.arm, scenario.overrides(arguments), checked, halves=True)
             folder = folders.fresh(arguments.out, effective["scenario"]["name"], OWN_FILES,
                                    "a run already; remove it or choose another folder")
-            shutil.copy(checked, folder)
+            for name in (checked.name, *hil.HALVES.values()):
+                shutil.copy(checked.with_name(name), folder)
         origin.write(folder, arguments)
         say_where(folder)
         duration_s = effective["scenario"]["duration_s"]

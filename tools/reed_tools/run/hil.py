@@ -24,6 +24,7 @@ STOP_PATIENCE_S = 10.0   # between asking a program to stop and ending it
 START_PATIENCE_S = 10.0  # until the plant hears the bus
 SILENCE_S = 30.0         # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
+HALVES = {"firmware": "controller.toml", "plant": "plant.toml"}  # what each program may know, beside effective.toml
 MEMORY = "memory"        # the bus of controller and plant in one process
 
 
@@ -47,6 +48,11 @@ class Plan:
         """Name of the program that controls, the last to be started."""
         return list(self.programs)[-1]
 
+    def half(self, name: str) -> str:
+        """What the program reads: its half where a run folder keeps it, else the whole file."""
+        half = Path(self.out) / HALVES[name] if name in HALVES else None
+        return str(half) if half is not None and half.exists() else self.config
+
     def log(self, name: str) -> Path:
         """`name`: "plant" or "firmware", whoever writes it."""
         return Path(self.out) / f"{name}.lcmlog"
@@ -69,7 +75,7 @@ def die_with_parent() -> None:
 
 def start(name: str, plan: Plan, options: list[str]) -> subprocess.Popen:
     entries = [word for entry in plan.entries for word in ("--set", entry)]
-    command = [plan.programs[name], "--config", plan.config, *entries, *options, *([] if plan.lcm else ["--no-lcm"])]
+    command = [plan.programs[name], "--config", plan.half(name), *entries, *options, *([] if plan.lcm else ["--no-lcm"])]
     limit_stacks()
     with open(plan.output(name), "wb") as output:
         # A session of its own: Ctrl-C reaches the tool alone, which then stops the programs in order.

@@ -1,4 +1,4 @@
-"""From a scenario and overrides to the one effective.toml that both programs read.
+"""From a scenario and overrides to effective.toml and the halves of it that the programs read.
 
 Names, keys, units and ranges are checked by the C++ reader (program reed_config): there is no second reader here.
 """
@@ -10,7 +10,7 @@ from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import checks
 from reed_tools.paths import program
 from reed_tools.record import configuration
-from reed_tools.run import joints
+from reed_tools.run import hil, joints
 
 SHORT_OPTIONS = {"rate": "timing.rate_hz", "duration": "scenario.duration_s", "seed": "scenario.seed"}
 
@@ -21,9 +21,11 @@ def overrides(arguments) -> list[str]:
     return [*arguments.set, *(f"{key}={value}" for key, value in given.items() if value is not None)]
 
 
-def write_effective(scenario: str, arm: str | None, entries: list[str], target: Path) -> dict:
-    """Validates everything, writes `target`, returns it parsed."""
+def write_effective(scenario: str, arm: str | None, entries: list[str], target: Path, halves: bool = False) -> dict:
+    """Validates everything, writes `target` and, with `halves`, beside it what each program may know; returns it parsed."""
     command = [str(program("reed_config")), "--config", scenario, "--write", str(target)]
+    for name in hil.HALVES.values() if halves else ():
+        command += [f"--write-{Path(name).stem}", str(target.with_name(name))]
     if arm:
         command += ["--arm", arm]
     for entry in entries:

@@ -1,6 +1,5 @@
-// What the arm is: the only knowledge, beside the bus, that firmware and plant share.
-// Plain data in SI units; filled by arm_file.h from config/arms/*.toml. RT: set-up only (it owns heap
-// memory).
+// What is the same for the controller's arm and for the simulated one: geometry, drive train, limits, members.
+// Plain data in SI units. RT: set-up only (it owns heap memory).
 #pragma once
 
 #include <Eigen/Core>
@@ -37,35 +36,15 @@ struct BeamSection {
   double rhoA_kgpm = 0.0;
 };
 
-/// What one unit of a parameter adds to one body.
-struct ParameterShape {
-  int body = 0;  // 0-based link index
-  InertialBody unit;
-};
-
-/// One uncertain structural parameter p_k of (28): it scales inertial shapes and, or, viscous friction.
-struct StructuralParameter {
-  std::string name;
-  double truth = 0.0;    // plant
-  double nominal = 0.0;  // controller's start p_0
-  double lo = 0.0;       // box of the projection
-  double hi = 0.0;
-  std::vector<ParameterShape> shapes;
-  std::vector<double> viscous_weights;  // N·m·s/rad per unit, one per joint; empty: none
-};
-
-struct ArmDescription {
+struct ArmStructure {
   std::string name;
   std::vector<DhRow> dh;
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};  // base frame
   Eigen::Vector3d tool_offset_m{0.0, 0.0, 0.0};   // tool point in the last link frame
-  std::vector<InertialBody> bodies;  // true totals, one per link, parameters at their truth included
-  std::vector<StructuralParameter> parameters;  // at most kMaxParameters
   // Per joint; empty where the file does not say (a purely kinematic arm).
   std::vector<double> rotor_inertia_kgm2;       // reflected to the joint
   std::vector<double> joint_stiffness_Nmprad;   // k_q
   std::vector<double> joint_hardening_Nmprad3;  // cubic term k_3 of the spring: torque = k_q xi + k_3 xi^3
-  std::vector<double> coulomb_Nm;
   std::vector<double> torque_limit_Nm;
   std::vector<double> position_min_rad;   // never empty after reading: -2.9 rad where absent
   std::vector<double> position_max_rad;   // 2.9 rad where absent
@@ -81,7 +60,6 @@ struct ArmDescription {
     return reach;
   }
   int dof() const { return static_cast<int>(dh.size()); }
-  int num_parameters() const { return static_cast<int>(parameters.size()); }
 };
 
 }  // namespace reed

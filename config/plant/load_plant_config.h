@@ -1,0 +1,15 @@
+// The plant's half of a scenario file. RT: set-up only.
+#pragma once
+
+#include <string>
+
+#include "reed/config/description/load_options.h"
+#include "reed/config/plant/plant_config.h"
+
+namespace reed {
+
+/// Reads a scenario (or a file with this half alone), applies the overrides, checks every key and every rule
+/// between keys. Throws ConfigError: one line with file, line, key and what is allowed.
+PlantConfig LoadPlantConfig(const std::string& name_or_path, const LoadOptions& options = {});
+
+}  // namespace reed

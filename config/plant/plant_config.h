@@ -1,0 +1,80 @@
+// The plant's half of a scenario: the truth of the simulated arm, its drives, sensors and surroundings.
+// Names, units, ranges and defaults of every key: config/README.md. RT: set-up only (it owns heap memory).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "reed/config/description/sensor_data.h"
+#include "reed/config/description/timing_config.h"
+#include "reed/config/plant/true_arm.h"
+
+namespace reed {
+
+/// [plant] how the simulated arm is built and integrated.
+struct PlantModelConfig {
+  bool flexible_links = true;
+  int elements_per_link = 1;  // beam elements per straight member
+  double damping_ratio =
+      0.005;  // structural damping of every elastic mode, stiffness-proportional at the first mode
+  double max_step_s = 0.5e-3;    // largest integration step
+  double stiffness_scale = 1.0;  // scales joint and link stiffness alike
+  double joint_stiffness_scale = 1.0;
+  double friction_scale = 1.0;   // scales viscous and Coulomb friction
+  double payload_step_kg = 0.0;  // point mass added at the tool point at payload_step_s
+  double payload_step_s = 0.0;
+  std::vector<double> p_true;  // true structural parameters; empty: the arm file's
+};
+
+/// [drives] from a commanded to an applied torque.
+struct DriveConfig {
+  int torque_bits = 16;             // resolution over plus/minus the arm's torque limit
+  int command_timeout_cycles = 20;  // periods without a valid command before the brakes close
+};
+
+/// [sensors] from the truth to a frame.
+struct SensorConfig : SensorData {
+  double moment_noise_Nm = 0.005;
+  double moment_quantum_Nm = 0.001;
+  Eigen::Vector3d force_bias_N = Eigen::Vector3d::Zero();
+  double wrench_lost_from_s =
+      -1.0;  // the wrench frames stop in [from, to) of plant time since the drives were enabled; -1: never
+  double wrench_lost_to_s = -1.0;
+};
+
+/// [wall] the true compliant half-space and where the controller believes it to be.
+struct WallConfig {
+  bool present = false;
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // on the believed surface, base frame
+  Eigen::Vector3d normal{0.0, 0.0, 1.0};              // outward, wall to robot
+  double offset_m = 0.0;  // true surface lies at point + offset * normal (negative: lower than believed)
+  double stiffness_Npm = 10e3;
+  double damping_Nspm = 20.0;
+  double friction = 0.1;             // Coulomb coefficient
+  double friction_speed_mps = 2e-3;  // speed at which regularised friction reaches its full value
+};
+
+/// [disturbance] an external force on the tool point. It acts in front of the wrist sensor, which reads it together
+/// with the wall's; no model and no setting of the controller holds it.
+struct DisturbanceConfig {
+  Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // base frame
+  Eigen::Vector3d amplitude_N = Eigen::Vector3d::Zero();  // of each of the sinusoids
+  std::vector<double> frequencies_hz;  // one sinusoid per entry on every axis, phases from the seed
+  Eigen::Vector3d step_N = Eigen::Vector3d::Zero();
+  double step_s = -1.0;  // -1: no step
+};
+
+struct PlantConfig {
+  std::int64_t seed = 1;
+  TrueArm arm;
+  PlantModelConfig plant;
+  DriveConfig drives;
+  SensorConfig sensors;
+  WallConfig wall;
+  DisturbanceConfig disturbance;
+  std::vector<double> start_rad;  // motor-side joint angles at t = 0
+  TimingConfig timing;
+};
+
+}  // namespace reed

@@ -1,0 +1,80 @@
+// The schema of an arm file: keys of the arm, of its truth, of bodies, shapes and sections, each once, with unit,
+// bound and meaning. Reader, writer and lister all walk this, as they walk scenario_fields.h. A new parameter of
+// the arm is a member of its struct, a line here, and whoever uses it.
+#pragma once
+
+#include "reed/config/schema/arm_description.h"
+#include "reed/config/schema/bound.h"
+
+namespace reed {
+
+inline constexpr Bound kArmLength{"m", -10.0, 10.0};  // beyond: millimetres
+inline constexpr Bound kArmAngle{"rad", -6.3, 6.3};   // two turns, as people round them; beyond: degrees
+inline constexpr Bound kArmMass{"kg", 0.0, 500.0};
+inline constexpr Bound kArmMoment{"kg·m²", -500.0, 500.0};
+inline constexpr Bound kArmCoulomb{"N·m", 0.0, 1e3};
+inline constexpr Bound kArmParameter{"unit of the parameter", -1e3, 1e3};
+
+/// What one may know of it, but for its rows, bodies and parameters.
+template <typename V>
+void ArmFields(V& v, ArmDescription& c) {
+  v.Text("name", c.name, "of the arm");
+  v.Vector("gravity", c.gravity_mps2, {"m/s²", -30.0, 30.0},
+           "base frame, magnitude 0 or 1.5 ... 30 m/s²: a vector in m/s² and not in units of g");
+  v.Vector("tool_offset", c.tool_offset_m, kArmLength,
+           "tool point in the last link's frame (tool_offset_in_last_frame is read too)");
+  v.PerJoint("rotor_inertia_reflected", c.rotor_inertia_kgm2, {"kg·m²", 1e-6, 100.0},
+             "J_m, motor inertia seen at the joint; needed for a run");
+  v.PerJoint("joint_stiffness", c.joint_stiffness_Nmprad, {"N·m/rad", 1.0, 1e9}, "k_q; needed for a run");
+  v.PerJoint("joint_hardening", c.joint_hardening_Nmprad3, {"N·m/rad³", 0.0, 1e12},
+             "k_3 of the joint spring, torque = k_q ξ + k_3 ξ³");
+  v.PerJoint("torque_limit", c.torque_limit_Nm, {"N·m", 1e-3, 1e4}, "symmetric; needed for a run");
+  v.PerJoint("position_min", c.position_min_rad, kArmAngle, "below position_max; absent: -2.9");
+  v.PerJoint("position_max", c.position_max_rad, kArmAngle, "absent: 2.9");
+  v.PerJoint("speed_limit", c.speed_limit_radps, {"rad/s", 0.01, 100.0}, "absent: 3");
+  v.PerJoint(
+      "coulomb_nominal", c.coulomb_nominal_Nm, kArmCoulomb,
+      "Coulomb friction that the controller starts from; absent: control.coulomb_known of the true one");
+  v.PerJoint("coulomb_declared", c.coulomb_declared_Nm, kArmCoulomb,
+             "Coulomb friction of the data sheet: the estimate may reach 1.5 times it, or 5 % of torque_limit; "
+             "absent: what the controller starts from");
+}
+
+/// [truth] of the simulated arm, but for its parameters and bodies.
+template <typename V>
+void TruthFields(V& v, ArmDescription& c) {
+  v.PerJoint("coulomb", c.coulomb_Nm, kArmCoulomb, "Coulomb friction, motor side");
+  v.PerJoint("viscous", c.viscous_Nmsprad, {"N·m·s/rad", 0.0, 1e4},
+             "viscous friction; absent: what the parameters say");
+}
+
+template <typename V>
+void BodyFields(V& v, InertialBody& c, const char* inertia_key) {
+  v.Required("mass", c.mass_kg, kArmMass, "of the link");
+  v.Vector("com", c.com_m, kArmLength, "centre of mass, link frame");
+  v.Matrix(
+      inertia_key, c.inertia_com_kgm2, kArmMoment,
+      "about that centre of mass, axes of the link frame; symmetric, no negative principal moment, triangle "
+      "inequality (a first link without mass may have I_zz alone)");
+}
+
+template <typename V>
+void Fields(V& v, KnownMass& c) {
+  v.Required("mass", c.mass_kg, {"kg", -500.0, 500.0}, "∫ dm");
+  v.Vector("first_moment", c.first_kgm, {"kg·m", -500.0, 500.0}, "∫ r dm, link frame");
+  v.Matrix("second_moment", c.second_kgm2, kArmMoment, "∫ r rᵀ dm, link frame");
+}
+
+template <typename V>
+void Fields(V& v, BeamSection& c) {
+  v.Required(
+      "length", c.length_m, {"m", 1e-4, 20.0},
+      "of a straight member; one section per non-zero d_i and then non-zero a_i, base to tip, with just that "
+      "length");
+  v.Required("EA", c.EA_N, {"N", 1.0, 1e12}, "axial stiffness");
+  v.Required("EI", c.EI_Nm2, {"N·m²", 1e-3, 1e10}, "bending stiffness, both planes");
+  v.Required("GJ", c.GJ_Nm2, {"N·m²", 1e-3, 1e10}, "torsional stiffness");
+  v.Required("rhoA", c.rhoA_kgpm, {"kg/m", 1e-6, 1e4}, "mass per length");
+}
+
+}  // namespace reed
