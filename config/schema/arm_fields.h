@@ -35,9 +35,10 @@ void ArmFields(V& v, ArmDescription& c) {
   v.PerJoint(
       "coulomb_nominal", c.coulomb_nominal_Nm, kArmCoulomb,
       "Coulomb friction that the controller starts from; absent: control.coulomb_known of the true one");
-  v.PerJoint("coulomb_declared", c.coulomb_declared_Nm, kArmCoulomb,
-             "Coulomb friction of the data sheet: the estimate may reach 1.5 times it, or 5 % of torque_limit; "
-             "absent: what the controller starts from");
+  v.PerJoint(
+      "coulomb_declared", c.coulomb_declared_Nm, kArmCoulomb,
+      "Coulomb friction of the data sheet: the estimate may reach 1.5 times it, or 5 % of torque_limit; "
+      "absent: what the controller starts from");
 }
 
 /// [truth] of the simulated arm, but for its parameters and bodies.

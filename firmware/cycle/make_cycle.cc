@@ -29,8 +29,8 @@ std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Controll
 
 }  // namespace
 
-std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport, bool start_wanted,
-                                     const strategy::ExternalLaw* law) {
+std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport,
+                                     bool start_wanted, const strategy::ExternalLaw* law) {
   return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted, law);
 }
 

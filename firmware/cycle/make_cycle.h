@@ -12,7 +12,7 @@ namespace reed {
 
 /// For 2 … 8 joints. start_wanted: the operator's wish to open the brakes. law: from outside; nullptr: the scenario's.
 /// Throws std::runtime_error with one line.
-std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport, bool start_wanted,
-                                     const strategy::ExternalLaw* law = nullptr);
+std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport,
+                                     bool start_wanted, const strategy::ExternalLaw* law = nullptr);
 
 }  // namespace reed

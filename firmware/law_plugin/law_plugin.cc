@@ -95,8 +95,7 @@ std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const ControllerConf
   setup.J_m.resize(static_cast<std::size_t>(setup.joints), 0.0);
   setup.p_0 = scenario.control.p_initial;
   if (setup.p_0.empty()) {
-    for (const NominalParameter& parameter : scenario.arm.parameters)
-      setup.p_0.push_back(parameter.nominal);
+    for (const NominalParameter& parameter : scenario.arm.parameters) setup.p_0.push_back(parameter.nominal);
   }
   return std::make_unique<LawPlugin>(spec, setup);
 }

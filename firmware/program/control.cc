@@ -19,7 +19,8 @@ namespace {
 /// caches like.
 constexpr std::size_t kRingCapacity = 1024, kLockstepRingCapacity = 512;
 
-run_t Describe(const ControlOptions& options, const ControllerConfig& scenario, const bus::Transport& transport) {
+run_t Describe(const ControlOptions& options, const ControllerConfig& scenario,
+               const bus::Transport& transport) {
   run_t run{};
   run.scenario = scenario.name;
   run.arm = scenario.arm.name;

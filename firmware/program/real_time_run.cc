@@ -36,8 +36,9 @@ void RunCounted(const ControlOptions& options, const LoopOptions& loop, const rt
 
 }  // namespace
 
-RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
-                          bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring) {
+RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig& scenario,
+                          const LoopOptions& loop, bus::Transport& transport, CycleBase& cycle,
+                          telemetry::SnapshotRing& ring) {
   const std::atomic<bool>& stop = rt::StopFlag();
   const bool realtime = options.clock == rt::ClockKind::kRealtime;
   rt::RealtimeOptions wanted{realtime ? scenario.timing.priority : 0,

@@ -16,7 +16,8 @@ struct RealTimeRun {
 };
 
 /// Returns when the scenario is over or SIGINT, SIGTERM or SIGHUP ask for its end.
-RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
-                          bus::Transport& transport, CycleBase& cycle, telemetry::SnapshotRing& ring);
+RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig& scenario,
+                          const LoopOptions& loop, bus::Transport& transport, CycleBase& cycle,
+                          telemetry::SnapshotRing& ring);
 
 }  // namespace reed

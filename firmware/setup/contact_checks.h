@@ -19,7 +19,8 @@ inline std::string Rounded(double value, int digits) {
 
 /// A start behind the wall of the file: the wall's force would become the sensor's zero.
 template <int N>
-void RefuseStartBehindWall(const PoseOf<N>& pose_of, const ControllerConfig& scenario, const JointPath<N>& path) {
+void RefuseStartBehindWall(const PoseOf<N>& pose_of, const ControllerConfig& scenario,
+                           const JointPath<N>& path) {
   constexpr double kRounding_m = 1e-6;  // a start at the surface is none
   if (!scenario.wall.present) return;
   const Eigen::Vector3d tip = pose_of(path.At(0.0).theta_d).tip;

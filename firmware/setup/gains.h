@@ -48,7 +48,7 @@ void Friction(const NominalArm& description, const ControlConfig& c, const model
     g.kappa_max = g.kappa_max.cwiseMax(
         kDeclared * Eigen::Map<const model::Vec<N>>(description.coulomb_declared_Nm.data()));
   g.kappa_max = g.kappa_max.cwiseMax(g.kappa_0);  // the box holds the start
-  g.Gamma_c_known = c.Gamma_friction * g.K_d;  // more damping: larger torques to adapt to
+  g.Gamma_c_known = c.Gamma_friction * g.K_d;     // more damping: larger torques to adapt to
   g.Gamma_c_unknown =
       c.observer ? model::Vec<N>(model::Vec<N>::Zero()) : g.Gamma_c_known;  // else two integrators add up
   g.friction_speed = c.friction_speed_radps;
@@ -57,8 +57,8 @@ void Friction(const NominalArm& description, const ControlConfig& c, const model
 }  // namespace internal
 
 template <int N, int P>
-Gains<N, P> GainsFrom(const ControlConfig& c, const NominalArm& description,
-                      const model::ArmModel<N, P>& arm, LawId law) {
+Gains<N, P> GainsFrom(const ControlConfig& c, const NominalArm& description, const model::ArmModel<N, P>& arm,
+                      LawId law) {
   Gains<N, P> g;
   g.K_d = Eigen::Map<const model::Vec<N>>(c.K_d.data());
   g.Lambda = Eigen::Map<const model::Vec<N>>(c.Lambda.data());

@@ -71,7 +71,9 @@ class ArmPlant::Impl {
     x_.head(n) = x_.segment(n, n) = motor_angle_rad;
     x_dot_.setZero();
     if (!Settle(equations_, Vector3d::Zero(), x_))
-      throw std::runtime_error("reference.start_rad: the simulated arm finds no equilibrium there; its springs or links are too soft for its weight");
+      throw std::runtime_error(
+          "reference.start_rad: the simulated arm finds no equilibrium there; its springs or links are too "
+          "soft for its weight");
     // Structural damping: the given ratio at the lowest frequency, proportional to stiffness beyond it.
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));

@@ -63,7 +63,7 @@ TEST(ArmPlant, AdvanceStaysOffTheHeap) {
 }
 
 TEST(ArmPlant, ShapeIsTheTruthAndStraightWithoutBending) {
-  Scenario scene = Pressing();
+  PlantConfig scene = Pressing();
   ArmPlant plant(scene);
   plant.Reset(test::MidPose());
   const ArmShape& sagging = plant.Shape();

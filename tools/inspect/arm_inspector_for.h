@@ -12,8 +12,7 @@ namespace reed::inspect {
 template <int N>
 class ArmInspectorFor final : public ArmInspector {
  public:
-  explicit ArmInspectorFor(const ArmDescription& description)
-      : arm_(description) {}
+  explicit ArmInspectorFor(const ArmDescription& description) : arm_(description) {}
 
   NamedValues Inspect(const NamedValues& in) const override {
     NamedValues out;
