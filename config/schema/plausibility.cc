@@ -105,6 +105,7 @@ class LawRules : public RuleContext {
   void WallIsMet() const {
     if (!Pressing()) return;
     const double seeking_s = std::min(s_.duration_s, s_.force.end_s) - s_.force.start_s;
+    if (seeking_s <= s_.force.ramp_s) return;  // too short a run to press in, whatever the wall
     const double sought_m = s_.force.approach_speed_mps * std::max(0.0, seeking_s);
     const double nearest_m = NearestToWall();
     if (nearest_m > sought_m)

@@ -5,9 +5,10 @@ import tomllib
 import numpy as np
 
 from reed_tools.paths import ARMS
+from reed_tools.record import configuration
 from reed_tools.record.signals import SOURCES, Signals
 
-ARM = tomllib.loads((ARMS / "a5.toml").read_text())
+ARM = configuration.with_truth_beside({"arm": tomllib.loads((ARMS / "a5.toml").read_text())})["arm"]
 POSE = [0.1, 0.6, -1.0, -0.7, 0.2]
 
 

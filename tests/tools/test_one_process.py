@@ -100,7 +100,8 @@ def test_the_program_refuses_bad_input_in_one_line(argv, told):
 
 
 def test_an_arm_that_stops_is_status_1_with_its_reason(tmp_path):
-    done = call("run", "--bus", "memory", "--out", tmp_path, "--duration", "1", "--set", "limits.contact_force_N=3")
+    done = call("run", "--bus", "memory", "--out", tmp_path, "--duration", "1", "--set", "plant.payload_step_kg=60",
+                "--set", "plant.payload_step_s=0.3")
     assert done.returncode == 1 and "reed_firmware: the arm stopped: " in done.stdout, done.stdout + done.stderr
     assert json.loads((tmp_path / "summary.json").read_text())["modes"][-1]["mode"] == "fault"
 

@@ -97,9 +97,9 @@ def test_a_run_folder_holds_everything_and_both_programs_got_the_same_options(re
     assert {"summary.json", "report.html", "telemetry.lcmlog", "effective.toml", "joint_error.png", "force.png", "torque.png",
             "parameters.png", "timing.png"} <= present
     assert not {"firmware.lcmlog", "plant.lcmlog"} & present
-    common = f"--config {tmp_path}/effective.toml --bus {BUS} --clock lockstep --log {tmp_path}/"
-    assert (tmp_path / "plant.options").read_text() == common + "plant.lcmlog"
-    assert (tmp_path / "firmware.options").read_text() == f"{common}firmware.lcmlog --enable --candump {tmp_path}/bus.candump"
+    common = f"--bus {BUS} --clock lockstep --log {tmp_path}/"
+    assert (tmp_path / "plant.options").read_text() == f"--config {tmp_path}/plant.toml {common}plant.lcmlog"
+    assert (tmp_path / "firmware.options").read_text() == f"--config {tmp_path}/controller.toml {common}firmware.lcmlog --enable --candump {tmp_path}/bus.candump"
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert (summary["scenario"], summary["arm"], summary["seed"], summary["clock"]) == ("press_known", "a5", 5, "lockstep")
     assert "FAIL" in done.stdout and summary["digest"][:16] in done.stdout

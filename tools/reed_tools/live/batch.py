@@ -82,7 +82,7 @@ class LcmFeed:
                 batch.singles[channel] = [kind.decode(data) for data in payloads]
             else:
                 same = [data for data in payloads if len(data) == len(payloads[-1])]  # an arm with other joints came before
-                batch.tables[channel] = after_restart(decode_all(kind, name, same))
+                batch.tables[channel] = after_restart(decode_all(kind, name, np.frombuffer(b"".join(same), np.uint8).reshape(len(same), -1)))
         batch.restarted = self.restarted(batch)
         return batch
 
