@@ -56,7 +56,7 @@ def prefix(tmp_path_factory) -> Path:
 def example(prefix, tmp_path_factory) -> Path:
     """The example in a build tree of its own, against the installed package."""
     build = tmp_path_factory.mktemp("own_law")
-    for command in (["cmake", "-S", str(EXAMPLE), "-B", str(build), f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"],
+    for command in (["cmake", "-G", "Ninja", "-S", str(EXAMPLE), "-B", str(build), f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"],
                     ["cmake", "--build", str(build)]):
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
@@ -100,7 +100,7 @@ def test_the_controller_runs_in_a_program_of_ones_own(example):
 def test_an_installed_package_of_another_version_is_refused(prefix, tmp_path):
     source = tmp_path / "CMakeLists.txt"
     source.write_text("cmake_minimum_required(VERSION 3.25)\nproject(own LANGUAGES CXX)\nfind_package(reed 7.0 CONFIG REQUIRED)\n")
-    done = subprocess.run(["cmake", "-S", str(tmp_path), "-B", str(tmp_path / "build"), f"-DCMAKE_PREFIX_PATH={prefix}"], capture_output=True, text=True)
+    done = subprocess.run(["cmake", "-G", "Ninja", "-S", str(tmp_path), "-B", str(tmp_path / "build"), f"-DCMAKE_PREFIX_PATH={prefix}"], capture_output=True, text=True)
     assert done.returncode and "version: 0.2.0" in done.stderr
 
 
