@@ -141,6 +141,12 @@ def text(page, wanted, patience_s=40):
     page.until(f"document.body.innerText.includes({wanted!r})", patience_s)
 
 
+def mistakes(page):
+    """Console errors, but for viser's word about an update that was on its way when its component was replaced with the next run:
+    it is ignored there, and seen only where the page is slower than the server."""
+    return [line for line in page.errors if "Tried to update non-existent component" not in line]
+
+
 def only_this_machine(page, port):
     for url in page.requests:
         assert url.startswith((f"http://127.0.0.1:{port}", f"ws://127.0.0.1:{port}", "data:", "blob:", "about:")), url
@@ -171,7 +177,7 @@ def test_the_page_follows_runs_as_they_come_and_go(folder, tmp_path):
         text(late, "the run has ended")
         assert_drawn(late, tmp_path / "late.png")
         assert number(page) > shown
-        assert page.errors == late.errors == []
+        assert mistakes(page) == mistakes(late) == []
         only_this_machine(page, served.port)
         assert served.process.poll() is None
         assert shown > ENOUGH_UPDATES  # a count: the rate is that of a software rasteriser beside the other tests' load
