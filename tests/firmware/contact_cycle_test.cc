@@ -11,6 +11,7 @@ namespace {
 
 using mode::Mode;
 using protect::Reason;
+using test::Refusal;
 using test::SilRig;
 
 Scenario PressKnown() { return LoadScenario("press_known"); }
@@ -142,16 +143,6 @@ TEST(StartAtAWall, AZeroThatIsMoreThanNoiseIsSaid) {
     EXPECT_EQ(Noted(rig, Reason::kForceZero, 5.0), offset_m > 0.0);
     EXPECT_EQ(Noted(rig, Reason::kForceZero, 0.0), offset_m > 0.0);
   }
-}
-
-/// The line with which a scenario is refused.
-std::string Refusal(const Scenario& scenario) {
-  try {
-    const SilRig rig(scenario);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(StartAtAWall, BehindTheBelievedOneIsRefused) {

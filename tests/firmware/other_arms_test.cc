@@ -12,6 +12,7 @@ namespace {
 
 using mode::Mode;
 using protect::Reason;
+using test::Refusal;
 using test::SilRig;
 
 /// p2, nearly stretched, seeks a wall ahead that is not there.
@@ -31,15 +32,6 @@ Scenario StretchSeek() {
   scenario.force.start_s = 0.3;
   scenario.force.ramp_s = 0.5;
   return scenario;
-}
-
-std::string Refusal(const Scenario& scenario) {
-  try {
-    const SilRig rig(scenario);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(StretchedArm, SlowsDownAndIsHeldBeforeAnythingIsFast) {

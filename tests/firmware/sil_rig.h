@@ -105,4 +105,14 @@ class SilRig {
   std::int64_t heap_calls_ = 0;
 };
 
+/// The line with which a scenario is refused at set-up, or "accepted".
+inline std::string Refusal(const Scenario& scenario) {
+  try {
+    const SilRig rig(scenario);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 }  // namespace reed::test
