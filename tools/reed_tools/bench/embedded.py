@@ -23,7 +23,7 @@ PORT = 46331
 MACHINE = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]
 COMMON = ["-std=c++20", "-O2", "-DNDEBUG", "-isystem", "/usr/include/eigen3"]
 BARE = ["-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-fno-use-cxa-atexit", "-ffunction-sections", "-fdata-sections"]
-SOURCES = ["embedded/run_loop.cc", "bus/codec/messages.cc", "bus/codec/e2e_profile5.cc"]
+SOURCES = ["embedded/target/run_loop.cc", "bus/codec/messages.cc", "bus/codec/e2e_profile5.cc"]
 ROOMS = ["reed_core", "reed_law_interface", "reed_frame", "reed_codec", "reed_embedded", "reed_sizes"]
 # What must not be in a program without heap, exceptions, RTTI or locks.
 FORBIDDEN = re.compile(r"malloc|calloc|realloc|\b_?free\b|operator new|operator delete|_sbrk|__cxa_throw|__cxa_allocate|_Unwind_(Raise|Resume)|"
@@ -60,9 +60,9 @@ def missing() -> list[str]:
 
 def prove(folder: Path) -> Proof:
     target_objects = [compile_one("arm-none-eabi-g++", ROOT / source, folder, [*MACHINE, *COMMON, *BARE])
-                      for source in (*SOURCES, "embedded/platform_mps2.cc")]
+                      for source in (*SOURCES, "embedded/target/platform_mps2.cc")]
     target_objects.append(compile_one("arm-none-eabi-gcc", GENERATED / "reed.c", folder, [*MACHINE, "-O2", "-ffunction-sections"]))
-    host_objects = [compile_one("g++", ROOT / source, folder, COMMON) for source in (*SOURCES, "embedded/platform_host.cc")]
+    host_objects = [compile_one("g++", ROOT / source, folder, COMMON) for source in (*SOURCES, "embedded/target/platform_host.cc")]
     host_objects.append(compile_one("gcc", GENERATED / "reed.c", folder, ["-O2"]))
     loops, figures = {}, []
     for scenario, cycles in RUNS.items():
@@ -72,7 +72,7 @@ def prove(folder: Path) -> Proof:
         recorded = record(place, scenario, log, cycles)
         elf, program_for_host = place / "controller.elf", place / "controller_host"
         data = compile_one("arm-none-eabi-g++", recorded, place, [*MACHINE, *COMMON, *BARE, "-O0"])
-        run(["arm-none-eabi-g++", *MACHINE, "-nostartfiles", "-Wl,--gc-sections", "-T", str(ROOT / "embedded" / "mps2_an500.ld"),
+        run(["arm-none-eabi-g++", *MACHINE, "-nostartfiles", "-Wl,--gc-sections", "-T", str(ROOT / "embedded" / "target" / "mps2_an500.ld"),
              *map(str, target_objects), str(data), "-o", str(elf)])
         target, counted = run_under_qemu(elf)
         run(["g++", *map(str, host_objects), str(compile_one("g++", recorded, place, [*COMMON, "-O0"])), "-o", str(program_for_host)])
