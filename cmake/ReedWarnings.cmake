@@ -25,3 +25,11 @@ set(REED_SET_UP_FLAGS "$<$<NOT:$<CONFIG:Debug>>:-O1;-Wno-null-dereference>")
 function(reed_set_up_only)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "${REED_SET_UP_FLAGS}")
 endfunction()
+
+# Headers that most of a target's files read, read once per build. Not in Debug, where a header that a file forgot to include is
+# to be missed.
+function(reed_precompiled target)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()

@@ -1,8 +1,9 @@
 #include "reed/plant/dynamics/equilibrium.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+
+#include "reed/plant/dynamics/symmetric_eigen.h"
 
 namespace reed::plant {
 
@@ -39,8 +40,8 @@ VibrationModes LockedMotorModes(const EquationsOfMotion& equations) {
   // M φ = (1/ω²) K φ: K is positive definite, M need not be (a link without mass).
   const MatrixXd M = equations.MassMatrix().bottomRightCorner(free, free);
   const MatrixXd K = equations.StiffnessMatrix().bottomRightCorner(free, free);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(M, K);
-  const VectorXd& inverse_square = solver.eigenvalues();  // ascending: the lowest frequency comes last
+  const auto [inverse_square, vectors] =
+      GeneralizedEigen(M, K, Wanted::kPairs);  // the lowest frequency comes last
 
   constexpr double kMassless = 1e-14;  // relative: such a coordinate has no frequency
   int count = 0;
@@ -52,7 +53,7 @@ VibrationModes LockedMotorModes(const EquationsOfMotion& equations) {
     const double omega = 1.0 / std::sqrt(inverse_square[free - 1 - i]);
     modes.frequency_hz[i] = omega / (2.0 * std::numbers::pi);
     // The solver's vectors have φᵀKφ = 1, and φᵀMφ = 1/ω².
-    modes.shape.col(i).tail(free) = omega * solver.eigenvectors().col(free - 1 - i);
+    modes.shape.col(i).tail(free) = omega * vectors.col(free - 1 - i);
   }
   return modes;
 }

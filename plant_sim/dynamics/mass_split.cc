@@ -1,7 +1,8 @@
 #include "reed/plant/dynamics/mass_split.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "reed/plant/dynamics/symmetric_eigen.h"
 
 namespace reed::plant {
 
@@ -19,8 +20,7 @@ Eigen::Matrix4d PseudoInertia(const RigidBody& body) {
 
 bool CanExist(const Eigen::Matrix4d& pseudo) {
   constexpr double kRoundOff = 1e-13;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(pseudo, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] >= -kRoundOff * pseudo.norm();
+  return SymmetricEigenvalues(pseudo)[0] >= -kRoundOff * pseudo.norm();
 }
 
 /// The members' lines as bodies, in the link frame.

@@ -1,12 +1,12 @@
 #include "reed/plant/dynamics/modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "reed/plant/dynamics/centre_line.h"
 #include "reed/plant/dynamics/equilibrium.h"
+#include "reed/plant/dynamics/symmetric_eigen.h"
 
 namespace reed::plant {
 
@@ -46,10 +46,9 @@ std::vector<double> BeamModes(double length_m, double EI_Nm2, double rhoA_kgpm, 
       M(r, c) = M_all(in_plane(r), in_plane(c));
       K(r, c) = K_all(in_plane(r), in_plane(c));
     }
-  const VectorXd square =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
   std::vector<double> frequency_hz;
-  for (const double s : square) frequency_hz.push_back(std::sqrt(s) / (2.0 * std::numbers::pi));
+  for (const double s : GeneralizedEigen(K, M, Wanted::kValues).values)
+    frequency_hz.push_back(std::sqrt(s) / (2.0 * std::numbers::pi));
   return frequency_hz;
 }
 
