@@ -33,7 +33,7 @@ PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "user-mode-linux": "User Mode Linux", "busybox-static": "busybox", "can-utils": "can-utils", "default-jre": "Java",
     "default-jdk-headless": "Java", "liblcm-java": "lcm-spy", "libjchart2d-java": "jchart2d", "clang-format-14": "clang-format",
     "clang-tidy-14": "clang-tidy", "valgrind": "valgrind", "spin": "spin", "gcc-arm-none-eabi": "arm-none-eabi",
-    "libstdc++-arm-none-eabi-newlib": "arm-none-eabi", "qemu-system-arm": "qemu", "rt-tests": "cyclictest", "xvfb": "xvfb", "chromium": "chromium"}
+    "libstdc++-arm-none-eabi-newlib": "arm-none-eabi", "qemu-system-arm": "qemu", "rt-tests": "cyclictest", "xvfb": "xvfb", "chromium": "chromium", "zsh": "zsh"}
 
 
 def text_of(name):

@@ -1,6 +1,7 @@
 """tools/reed doctor on machines that lack what it looks for: it diagnoses, and does not die."""
 
 import errno
+from types import SimpleNamespace
 
 import pytest
 
@@ -34,7 +35,7 @@ def kernel_file(machine, name, content):
 
 
 def test_a_machine_without_sys_and_proc_gets_its_whole_table(machine, capsys):
-    assert doctor.run(None) == 0
+    assert doctor.run(SimpleNamespace(json=False)) == 0
     told = capsys.readouterr().out
     assert "cannot be found out" not in told and "this kernel has none" in told
     assert all(finding().subject in told for finding in doctor.FINDINGS)
@@ -61,6 +62,6 @@ def test_what_cannot_be_found_out_is_a_finding(monkeypatch, capsys, error):
         raise error
 
     monkeypatch.setattr(doctor, "FINDINGS", (broken_part, doctor.disk))
-    assert doctor.run(None) == 0
+    assert doctor.run(SimpleNamespace(json=False)) == 0
     told = capsys.readouterr().out
     assert "broken part" in told and "cannot be found out" in told and "free disk" in told

@@ -3,6 +3,7 @@ pass_through(argv) when another program reads the options. Only the module of th
 
 import argparse
 import importlib
+import json
 import os
 import sys
 import traceback
@@ -18,7 +19,7 @@ COMMANDS = {
     "compare": ("compare.command", "two or more runs, or campaigns, beside each other: differences first"),
     "live": ("live.command", "a page that shows a run as it happens, or a finished one"),
     "export": ("export.command", "a run as MCAP, CSV, Parquet, or its bus as ASC, BLF"),
-    "decode": ("export.decode", "frames of the bus in engineering units, live or recorded"),
+    "decode": ("export.decode_command", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
@@ -26,6 +27,7 @@ COMMANDS = {
     "budget": ("bench.budget", "checks of a law from outside: heap, system calls, exceptions, time"),
     "bench": ("bench.command", "speed and latency beside what they are compared with"),
     "test": ("testing.command", "all tests, or those that match a filter"),
+    "completion": ("completion.command", "a script with which bash or zsh completes these commands"),
 }
 
 EXIT_STATUS = """exit status: 0 done and every check passed; 1 a check or test failed; 2 wrong usage or configuration;
@@ -43,8 +45,8 @@ class OneLineParser(argparse.ArgumentParser):
 
 
 def overview() -> str:
-    rows = "\n".join(f"  {name:<9}{text}" for name, (_, text) in COMMANDS.items())
-    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help has the options; --version prints the version."
+    rows = "\n".join(f"  {name:<11}{text}" for name, (_, text) in COMMANDS.items())
+    return f"usage: tools/reed COMMAND [options]\n\n{rows}\n\n{EXIT_STATUS}\ntools/reed COMMAND --help has the options and an example; --version prints the version, with --json as JSON."
 
 
 def main(argv: list[str]) -> int:
@@ -77,7 +79,7 @@ def dispatch(argv: list[str]) -> int:
         return 0
     name, rest = argv[0], argv[1:]
     if name == "--version" or (name in COMMANDS and "--version" in rest):
-        print(version())
+        print(version_json() if "--json" in argv else version())
         return 0
     if name not in COMMANDS:
         raise UsageError(f"unknown command `{name}`{did_you_mean(name, COMMANDS)}; commands: {', '.join(COMMANDS)}")
@@ -91,6 +93,12 @@ def version() -> str:
     from reed_tools import versions  # asks git: only when it is asked for
 
     return f"reed {versions.reed()}, commit {versions.commit() or 'unknown: no git, or no checkout of this user'}"
+
+
+def version_json() -> str:
+    from reed_tools import versions
+
+    return json.dumps(versions.all_of_them())
 
 
 def module_of(name: str):

@@ -1,5 +1,6 @@
 """Standard streams that end nothing: what is printed to a closed stream, or after its reader has left, goes nowhere."""
 
+import contextlib
 import io
 import os
 import select
@@ -41,6 +42,11 @@ def install() -> None:
         raw = Lasting(number, "w", closefd=False)
         setattr(sys, name, io.TextIOWrapper(io.BufferedWriter(raw), encoding="utf-8", errors=errors,
                                             line_buffering=number == 2 or raw.isatty()))
+
+
+def result_alone(wanted: bool):
+    """--json: standard output is for the result; what is printed meanwhile goes to standard error."""
+    return contextlib.redirect_stdout(sys.stderr) if wanted else contextlib.nullcontext()
 
 
 def finish(status: int) -> int:

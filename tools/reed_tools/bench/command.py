@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from reed_tools import folders
+from reed_tools import folders, streams
 from reed_tools.bench import embedded, loop, plant, plot, rates, rows, steps, wake
 from reed_tools.bench.machine import Machine
 from reed_tools.bench.rows import Found, Row
@@ -30,6 +30,9 @@ MEASURES = {"steps": (steps.steps, "control step and regressor beside Pinocchio'
             "rate": (rates.highest_rate, "the highest rate"),
             "embedded": (cortex_m7, "the control core on a Cortex-M7"),
             "plant": (plant.measure, "the plant beside MuJoCo")}
+EXAMPLE = """examples:
+  tools/reed bench --quick                             # two minutes
+  tools/reed bench steps growth                        # these two alone"""
 
 
 def add_arguments(parser) -> None:
@@ -39,11 +42,21 @@ def add_arguments(parser) -> None:
     parser.add_argument("--slice", type=int, metavar="S", help="seconds per slice of wake-up latency; default 10, quick 2")
     parser.add_argument("--slices", type=int, metavar="N", help="alternating slices per side; default 3, quick 1")
     parser.add_argument("--out", type=folders.argument, metavar="DIR", help="folder for bench.json and bench.png; default out/<time>-bench")
+    parser.add_argument("--json", action="store_true", help="print the content of bench.json, the rest on standard error")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
     set_defaults(arguments)
     folder = folders.fresh(arguments.out, "bench", ("bench.json", "bench.png"), "a benchmark already; remove it or choose another folder")
+    with streams.result_alone(arguments.json):
+        measure_all(arguments, folder)
+    if arguments.json:
+        print(json.dumps(json.loads((folder / "bench.json").read_text(encoding="utf-8"))))
+    return 0
+
+
+def measure_all(arguments, folder: Path) -> None:
     machine, all_found = Machine(), Found()
     print(machine.text(), flush=True)
     for name in arguments.only or MEASURES:
@@ -54,7 +67,6 @@ def run(arguments) -> int:
         except ReedError as error:
             all_found.notes.append(f"not measured, {text}: {error}")
     report(all_found, machine, folder)
-    return 0
 
 
 def set_defaults(arguments) -> None:

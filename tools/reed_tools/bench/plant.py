@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools.bench import plant_plot, programs
+from reed_tools.bench import programs
 from reed_tools.bench.rows import Found, Row
 from reed_tools.errors import RunError
 from reed_tools.paths import program
@@ -45,6 +45,8 @@ def measure(_arguments, folder: Path) -> Found:
     ours = [plant(0, elements, step) for elements in ELEMENTS for step in (2 * DEFAULT_STEP_S, DEFAULT_STEP_S)]
     joints = [plant(count, 1, DEFAULT_STEP_S) for count in JOINTS]
     theirs = mujoco_costs(probe("arm"))
+    from reed_tools.bench import plant_plot  # matplotlib: after the measurement
+
     plant_plot.draw(ours, joints, theirs, folder / "plant_speed.png")
     default = next(cost for cost in ours if cost.step_s == DEFAULT_STEP_S)
     rows = [Row(f"bending plant, {default.coordinates} coordinates, × real time", default.times_real_time, cost.times_real_time,

@@ -64,12 +64,13 @@ def show(rows: list[Row]) -> None:
     table.columns[3].justify = "left"
     for column in (0, 1, 2, 4, 5):
         table.columns[column].no_wrap = True
+    apart = "\n  " if console().is_terminal else " "
     for row in rows:
         aim = f"{'≤' if row.less_is_better else '≥'} {row.aim:g}" if row.aim is not None else ""
         if row.aim is not None and not row.other:
             aim += f" {row.unit}"
         verdict = "" if row.ok is None else mark(row.ok, bad="no")
-        what = Text.assemble(row.what, (f"\n  beside {row.other}", "dim")) if row.other else row.what
+        what = Text.assemble(row.what, (f"{apart}beside {row.other}", "dim")) if row.other else row.what
         table.add_row(f"{row.ratio:.2f}" if row.ratio is not None else "–", aim, verdict, what, f"{figure(row.ours)} {row.unit}",
                       f"{figure(row.theirs)} {row.unit}" if row.theirs is not None else "–")
     console().print(table)

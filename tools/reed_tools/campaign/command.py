@@ -7,7 +7,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from reed_tools import folders, versions
+from reed_tools import folders, streams, versions
 from reed_tools.campaign import definition, draws, junit, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
 from reed_tools.campaign.workers import Workers
@@ -19,6 +19,9 @@ OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "
 MOST_JOBS, MOST_REPEATS = 1024, 1000
 WHOLE = {"draws": (1, MOST_DRAWS), "first": (0, MOST_DRAWS), "count": (1, MOST_DRAWS), "jobs": (1, MOST_JOBS), "repeat": (0, MOST_REPEATS)}
 SELECTION = ("draws", "first", "count", "shard")
+EXAMPLE = """examples:
+  tools/reed campaign press_known --draws 20           # how good and how bad it gets
+  tools/reed campaign --resume out/CAMPAIGN            # goes on where it was interrupted"""
 
 
 def add_arguments(parser) -> None:
@@ -35,6 +38,8 @@ def add_arguments(parser) -> None:
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
     where.add_argument("--resume", type=folders.argument, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
+    parser.add_argument("--json", action="store_true", help="print the content of summary.json, the rest on standard error")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -43,6 +48,14 @@ def run(arguments) -> int:
         if value is not None and not least <= value <= most:
             raise UsageError(f"--{'from' if option == 'first' else option} {value}: allowed: a whole number from {least} to {most}")
     folder, campaign, indices = resumed(arguments) if arguments.resume else begun(arguments)
+    with streams.result_alone(arguments.json):
+        status = run_draws(arguments, folder, campaign, indices)
+    if arguments.json:
+        print(json.dumps({"folder": str(folder), **json.loads((folder / "summary.json").read_text(encoding="utf-8"))}))
+    return status
+
+
+def run_draws(arguments, folder: Path, campaign: Campaign, indices: list[int]) -> int:
     finished = {record.index: record for record in draws.read(folder, campaign.definition())}
     pending = [index for index in indices if index not in finished]
     jobs = arguments.jobs or len(os.sched_getaffinity(0))

@@ -14,12 +14,16 @@ from reed_tools.text import plain
 
 PAGE, CURVES = OWN_FILES = "compare.html", "curves.png"
 MOST_ROWS = 60  # on the terminal; page and --json have all
+EXAMPLE = """examples:
+  tools/reed compare out/RUN out/OTHER                 # what differs, and the curves on common axes
+  tools/reed compare out/RUN out/OTHER --json          # the differences alone"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("folders", nargs="+", metavar="RUN", type=folders.argument, help="folders of runs, or of campaigns: two or more")
     parser.add_argument("--json", action="store_true", help="print {runs, differences: [{figure, values}]} and write no page")
     parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder of the page; default out/<time>-compare")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -1,10 +1,11 @@
 """tools/reed doctor: what this machine can and cannot do, with the exact fix for each."""
 
 import ctypes
+import json
 import os
 import platform
 import shutil
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rich.text import Text
@@ -151,15 +152,34 @@ def diagnosed(finding) -> Finding:
         return finding()
     except (OSError, ValueError) as error:
         return Finding(finding.__name__.replace("_", " "), False, f"cannot be found out: {error}")
+EXAMPLE = """examples:
+  tools/reed doctor                                    # what is missing, with the command that adds it
+  tools/reed doctor --json                             # the same for a script"""
 
 
 def add_arguments(parser) -> None:
-    pass
+    parser.add_argument("--json", action="store_true", help="print {system, findings: [{subject, good, detail, fix}], buses}")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
-    table = grid(f"{platform.system()} {platform.release()}, {platform.machine()}", "what", "", "found", numbers=False)
+    system = f"{platform.system()} {platform.release()}, {platform.machine()}"
     found = [diagnosed(finding) for finding in FINDINGS]
+    buses = usable_buses(found)
+    if arguments.json:
+        print(json.dumps({"system": system, "findings": [asdict(item) for item in found], "buses": buses}))
+    else:
+        show(system, found, buses)
+    return 0
+
+
+def usable_buses(found: list[Finding]) -> list[str]:
+    buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
+    return [buses[item.subject] for item in found if item.good and item.subject in buses]
+
+
+def show(system: str, found: list[Finding], buses: list[str]) -> None:
+    table = grid(system, "what", "", "found", numbers=False)
     for item in found:
         table.add_row(item.subject, Text("yes", "green") if item.good else Text("no", "yellow"), plain(item.detail))
     out = console()
@@ -167,7 +187,4 @@ def run(arguments) -> int:
     for item in found:
         if item.fix:
             out.print(Text(item.subject, "bold"), f": {item.fix}", sep="", soft_wrap=True, highlight=False)
-    buses = {bus_choice.VCAN: f"socketcan:{bus_choice.VCAN}", "loopback multicast": "udp", "small VM (--bus vm)": "vm"}
-    usable = [buses[item.subject] for item in found if item.good and item.subject in buses]
-    out.print(f"run works here with --bus {' or '.join(usable)}" if usable else "run works here over no bus yet, see above", highlight=False)
-    return 0
+    out.print(f"run works here with --bus {' or '.join(buses)}" if buses else "run works here over no bus yet, see above", highlight=False)

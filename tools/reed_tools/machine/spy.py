@@ -15,11 +15,14 @@ from reed_tools.paths import BUILD, ROOT
 JAVA_SHARE = Path("/usr/share/java")
 LCM_JAR, CHART_JAR = JAVA_SHARE / "lcm.jar", JAVA_SHARE / "jchart2d.jar"
 TYPES_JAR = BUILD / "spy" / "reed-types.jar"
+EXAMPLE = """examples:
+  tools/reed spy                                       # beside a run: a double click opens a channel"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("--url", metavar="URL", help="LCM URL; default LCM_DEFAULT_URL or udpm://239.255.76.67:7667")
     parser.add_argument("--jar-only", action="store_true", help="build the jar of message types, print its path, start nothing")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -10,6 +10,9 @@ from reed_tools.paths import ROOT
 from reed_tools.show import tables
 
 CACHE = ROOT / "out" / "paper-runs"
+EXAMPLE = """examples:
+  tools/reed paper                                     # about five minutes
+  tools/reed paper --fresh --jobs 2                    # all runs again, two at a time"""
 
 
 def add_arguments(parser) -> None:
@@ -17,6 +20,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("--jobs", metavar="N", type=int, default=max(1, len(os.sched_getaffinity(0)) // 2),
                         help="runs side by side, two programs each; default half the cores, here %(default)s")
     parser.add_argument("--fresh", action="store_true", help="run everything again instead of keeping what ran before")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

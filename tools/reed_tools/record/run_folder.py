@@ -14,6 +14,7 @@ CONFIGURATION = "effective.toml"
 TELEMETRY = "telemetry.lcmlog"
 ORIGIN = "run.json"                          # command, versions, machine
 PARTS = ("firmware.lcmlog", "plant.lcmlog")  # until they are merged
+SUMMARY = "summary.json"
 SUMS = "SHA256SUMS"                          # in the form that `sha256sum -c` reads
 RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump")
 FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt", "one_process.txt")
@@ -53,6 +54,11 @@ def origin(folder: Path) -> dict:
     if not isinstance(found, dict):
         raise UsageError(f"{path}: expected an object")
     return {key: found.get(key) for key in ("command", "versions", "machine")}
+
+
+def as_json(folder: Path) -> str:
+    """summary.json on one line, with the folder that it is of."""
+    return json.dumps({"folder": str(folder), **json.loads((folder / SUMMARY).read_text(encoding="utf-8"))})
 
 
 def require_ended(folder: Path) -> None:

@@ -15,6 +15,10 @@ from reed_tools.paths import program
 MODES = 4
 HELP = """  --plot [FILE]               with --arm: the arm bent by its weight and its first modes (--modes, default 4) as PNG,
                               at --at; default inspect-ARM.png
+
+examples:
+  tools/reed inspect --arm a5 --modes 4                # its first modes, motors locked
+  tools/reed inspect --arm a5 --states cases.json      # the model and the law at given states
 """
 
 

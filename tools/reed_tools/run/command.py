@@ -6,7 +6,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from reed_tools import folders
+from reed_tools import folders, streams
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import report_page, result_table
 from reed_tools.law import choice as law_choice
@@ -19,6 +19,10 @@ from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = (*run_folder.FILES, *hil.HALVES.values(), "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
+EXAMPLE = """examples:
+  tools/reed run                                       # the arm a5 presses 8 N on a wall
+  tools/reed run press_known --clock lockstep --seed 7 # bit-identical when repeated
+  tools/reed run --arm a7 --set control.Lambda=18      # any number of the scenario or of the arm"""
 
 
 def add_arguments(parser) -> None:
@@ -43,9 +47,20 @@ def add_arguments(parser) -> None:
     parser.add_argument("--trace", action="store_true",
                         help="also write trace.json, for ui.perfetto.dev: a span per phase, instants for what happened")
     parser.add_argument("--live", action="store_true", help="with a page that shows the run as it happens, on 127.0.0.1")
+    parser.add_argument("--json", action="store_true", help="print the content of summary.json and its folder, the rest on standard error")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
+    with streams.result_alone(arguments.json):
+        folder, status = one_run(arguments)
+    if arguments.json:
+        print(run_folder.as_json(folder))
+    return status
+
+
+def one_run(arguments) -> tuple[Path, int]:
+    """The run folder and the exit status."""
     bus = bus_choice.choose(arguments.bus)
     arguments.clock = clock = clock_on(bus, arguments.clock)  # the line that repeats the run names it
     law = law_choice.choose(arguments.law, clock)
@@ -67,7 +82,7 @@ def run(arguments) -> int:
         with live_page.beside() if arguments.live else contextlib.nullcontext():
             with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:
                 outcome = vm.run(plan, on_progress) if bus == "vm" else hil.run(plan, on_progress)
-            return conclude(folder, plan, outcome, arguments.trace)
+            return folder, conclude(folder, plan, outcome, arguments.trace)
 
 
 def say_where(folder: Path) -> None:

@@ -1,11 +1,11 @@
-"""Tables on a terminal, and numbers in them."""
+"""Tables on a terminal, plain lines in a pipe, and numbers in them."""
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-PLAIN_WIDTH = 110
+PLAIN_WIDTH = 10_000  # of a line in a pipe: nothing is cut or wrapped
 
 
 def console() -> Console:
@@ -27,7 +27,8 @@ def number(value, digits: int = 4) -> str:
 
 
 def grid(title: str, *columns: str, numbers: bool = True) -> Table:
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    frame = box.SIMPLE_HEAD if console().is_terminal else None
+    table = Table(title=Text(title, no_wrap=True, overflow="ignore"), title_justify="left", box=frame, pad_edge=False)
     for k, column in enumerate(columns):
         table.add_column(column, justify="right" if numbers and k > 0 else "left")
     return table

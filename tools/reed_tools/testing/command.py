@@ -10,11 +10,15 @@ import time
 from reed_tools.errors import UsageError
 from reed_tools.paths import BUILD, ROOT
 from reed_tools.testing.stages import Stage, all_stages
+EXAMPLE = """examples:
+  tools/reed test                                      # everything
+  tools/reed test test_live force                      # tests whose name contains one of these"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("filters", nargs="*", metavar="FILTER",
                         help="only tests whose name contains one of these, or a stage: layout, tidy, asan, tsan")
+    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

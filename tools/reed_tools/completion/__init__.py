@@ -1,0 +1,1 @@
+"""Scripts with which a shell completes commands, options and their values."""
