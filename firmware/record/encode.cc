@@ -10,13 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxTextBytes = 256;  // one line for people
 
-/// The first `count` entries; resizing allocates the first time only.
-template <typename T, typename U, std::size_t N>
-void Assign(std::vector<T>& out, const std::array<U, N>& in, std::int32_t count) {
-  out.assign(in.begin(), in.begin() + count);
-}
-
-void Assign(double (&out)[3], const Vec3& in) { std::copy(in.begin(), in.end(), out); }
+std::int32_t Joints(const Snapshot& snapshot) { return std::clamp(snapshot.dof, 0, kMaxJoints); }
 
 /// "; last three cycles, receive/compute/transmit: 400.1/12.3/4.0, … us"
 void AppendPhases(const rt::PhaseHistory& history, std::string& text) {
@@ -42,51 +36,20 @@ Bytes MessageEncoder::Encode(const Message& message) {
 Bytes MessageEncoder::Measured(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Measured& in = snapshot.measured;
   reed::measured_t& out = measured_;
-  const std::int32_t dof = std::clamp(snapshot.dof, 0, kMaxJoints);
   out.utime = utime;
   out.cycle = snapshot.cycle;
-  out.dof = dof;
-  Assign(out.position, in.position, dof);
-  Assign(out.velocity, in.velocity, dof);
-  Assign(out.torque, in.torque, dof);
-  Assign(out.age, in.age, dof);
-  Assign(out.drive_state, in.drive_state, dof);
-  Assign(out.force, in.force);
-  Assign(out.moment, in.moment);
-  out.wrench_age = in.wrench_age;
+  const std::int32_t count = out.dof = Joints(snapshot);
+  REED_MEASURED_T(REED_COPY)
   return Encode(out);
 }
 
 Bytes MessageEncoder::Control(const Snapshot& snapshot, std::int64_t utime) {
   const telemetry::Control& in = snapshot.control;
   reed::control_t& out = control_;
-  const std::int32_t dof = std::clamp(snapshot.dof, 0, kMaxJoints);
   out.utime = utime;
   out.cycle = snapshot.cycle;
-  out.t_s = in.t_s;
-  out.mode = in.mode;
-  out.force_source = in.force_source;
-  out.dof = dof;
-  Assign(out.theta_plan, in.theta_plan, dof);
-  Assign(out.theta_d, in.theta_d, dof);
-  Assign(out.theta_d_dot, in.theta_d_dot, dof);
-  Assign(out.e, in.e, dof);
-  Assign(out.s, in.s, dof);
-  Assign(out.v, in.v, dof);
-  Assign(out.v_dot, in.v_dot, dof);
-  Assign(out.tau_law, in.tau_law, dof);
-  Assign(out.tau, in.tau, dof);
-  Assign(out.D, in.D, dof);
-  Assign(out.normal, in.normal);
-  out.f_d = in.f_d;
-  out.f = in.f;
-  out.e_f = in.e_f;
-  out.e_f_integral = in.e_f_integral;
-  out.z = in.z;
-  Assign(out.tip_plan, in.tip_plan);
-  Assign(out.observer, in.observer, dof);
-  out.k_hat_e = in.k_hat_e;
-  out.limits = in.limits;
+  const std::int32_t count = out.dof = Joints(snapshot);
+  REED_CONTROL_T(REED_COPY)
   return Encode(out);
 }
 
@@ -95,11 +58,8 @@ Bytes MessageEncoder::Adaptation(const Snapshot& snapshot, std::int64_t utime) {
   reed::adaptation_t& out = adaptation_;
   out.utime = utime;
   out.cycle = snapshot.cycle;
-  out.num = std::clamp(snapshot.num_parameters, 0, kMaxParameters);
-  Assign(out.p_hat, in.p_hat, out.num);
-  Assign(out.eta_hat, in.eta_hat, out.num);
-  out.sigma0 = in.sigma0;
-  out.sigma1 = in.sigma1;
+  const std::int32_t count = out.num = std::clamp(snapshot.num_parameters, 0, kMaxParameters);
+  REED_ADAPTATION_T(REED_COPY)
   return Encode(out);
 }
 
@@ -108,18 +68,8 @@ Bytes MessageEncoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   reed::timing_t& out = timing_;
   out.utime = utime;
   out.cycle = snapshot.cycle;
-  out.wake_ns = in.wake_ns;
-  out.rx_ns = in.rx_ns;
-  out.compute_ns = in.compute_ns;
-  out.tx_ns = in.tx_ns;
-  out.cycle_ns = in.cycle_ns;
-  out.missed = in.missed;
-  out.missed_host_paused = in.missed_host_paused;
-  out.overruns = in.overruns;
-  out.dropped = in.dropped;
-  out.rx_over = in.rx_over;
-  out.compute_over = in.compute_over;
-  out.tx_over = in.tx_over;
+  constexpr std::int32_t count = 0;  // no arrays
+  REED_TIMING_T(REED_COPY)
   return Encode(out);
 }
 
@@ -127,20 +77,8 @@ Bytes MessageEncoder::Bus(const BusCounters& in, std::int64_t cycle, std::int64_
   reed::bus_t& out = bus_;
   out.utime = utime;
   out.cycle = cycle;
-  out.frames_rx = in.frames_rx;
-  out.frames_tx = in.frames_tx;
-  out.lost = in.lost;
-  out.crc_errors = in.crc_errors;
-  out.repeated = in.repeated;
-  out.wrong_sequence = in.wrong_sequence;
-  out.wrong_length = in.wrong_length;
-  out.out_of_range = in.out_of_range;
-  out.unknown_id = in.unknown_id;
-  out.malformed = in.malformed;
-  out.error_frames = in.error_frames;
-  out.overflowed = in.overflowed;
-  out.tx_refused = in.tx_refused;
-  out.late = in.late;
+  constexpr std::int32_t count = 0;  // no arrays
+  REED_BUS_T(REED_COPY)
   return Encode(out);
 }
 

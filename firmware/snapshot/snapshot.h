@@ -1,6 +1,6 @@
 // Everything about one cycle that leaves the loop, as plain bytes: filled by the loop in a ring's slot,
-// turned into messages by an ordinary thread. Meaning, unit, frame and sign of every field: the .lcm file
-// named at each struct. Fields beyond dof, num_parameters, num_events and num_frames are never read.
+// turned into messages by an ordinary thread. Name, meaning, unit, frame and sign of every field are declared in the
+// .lcm files and nowhere else. Fields beyond dof, num_parameters, num_events and num_frames are never read.
 // RT: safe.
 #pragma once
 
@@ -11,6 +11,8 @@
 
 #include "reed/bus/frame/frame.h"
 #include "reed/config/sizes/sizes.h"
+#include "reed/lcmtypes/fields/field.h"
+#include "reed/lcmtypes/generated/fields.h"
 #include "reed/rt/phase_budget.h"
 
 namespace reed::telemetry {
@@ -19,89 +21,21 @@ inline constexpr int kMaxEvents = 4;  // of one cycle
 inline constexpr int kMaxFrames =
     24;  // of one cycle: SYNC, 8 states, wrench, command, and a second set after a delay
 
-using PerJoint = std::array<double, kMaxJoints>;
-using PerParameter = std::array<double, kMaxParameters>;
-using Vec3 = std::array<double, 3>;
-
-/// lcmtypes/measured_t.lcm
+/// Numbers, units and frames: the .lcm files of the same names. RT: plain data.
 struct Measured {
-  PerJoint position{};                         // rad
-  PerJoint velocity{};                         // rad/s
-  PerJoint torque{};                           // N·m
-  std::array<std::int32_t, kMaxJoints> age{};  // cycles
-  std::array<std::int8_t, kMaxJoints> drive_state{};
-  Vec3 force{};                 // N
-  Vec3 moment{};                // N·m
-  std::int32_t wrench_age = 0;  // cycles
+  REED_MEASURED_T(REED_MEMBER)
 };
-
-/// lcmtypes/control_t.lcm
 struct Control {
-  double t_s = 0.0;  // s
-  std::int8_t mode = 0;
-  std::int8_t force_source = 0;
-  PerJoint theta_plan{};      // rad
-  PerJoint theta_d{};         // rad
-  PerJoint theta_d_dot{};     // rad/s
-  PerJoint e{};               // rad
-  PerJoint s{};               // rad/s
-  PerJoint v{};               // rad/s
-  PerJoint v_dot{};           // rad/s²
-  PerJoint tau_law{};         // N·m
-  PerJoint tau{};             // N·m
-  PerJoint D{};               // rad/m
-  Vec3 normal{};              // 1
-  double f_d = 0.0;           // N
-  double f = 0.0;             // N
-  double e_f = 0.0;           // N
-  double e_f_integral = 0.0;  // N·s
-  double z = 0.0;             // m/s
-  Vec3 tip_plan{};            // m
-  PerJoint observer{};        // N·m
-  double k_hat_e = 0.0;       // N/m
-  std::int32_t limits = 0;    // bit set
+  REED_CONTROL_T(REED_MEMBER)
 };
-
-/// lcmtypes/adaptation_t.lcm
 struct Adaptation {
-  PerParameter p_hat{};    // units of the arm file
-  PerParameter eta_hat{};  // same
-  double sigma0 = 0.0;     // N·m·s/rad
-  double sigma1 = 0.0;     // N·m
+  REED_ADAPTATION_T(REED_MEMBER)
 };
-
-/// lcmtypes/timing_t.lcm
 struct Timing {
-  std::int32_t wake_ns = 0;
-  std::int32_t rx_ns = 0;
-  std::int32_t compute_ns = 0;
-  std::int32_t tx_ns = 0;
-  std::int32_t cycle_ns = 0;
-  std::int64_t missed = 0;              // since start, as all that follow
-  std::int64_t missed_host_paused = 0;  // of `missed`
-  std::int64_t overruns = 0;
-  std::int64_t dropped = 0;
-  std::int64_t rx_over = 0;
-  std::int64_t compute_over = 0;
-  std::int64_t tx_over = 0;
+  REED_TIMING_T(REED_MEMBER)
 };
-
-/// lcmtypes/bus_t.lcm, all since start
-struct BusCounters {
-  std::int64_t frames_rx = 0;
-  std::int64_t frames_tx = 0;
-  std::int64_t lost = 0;
-  std::int64_t crc_errors = 0;
-  std::int64_t repeated = 0;
-  std::int64_t wrong_sequence = 0;
-  std::int64_t wrong_length = 0;
-  std::int64_t out_of_range = 0;
-  std::int64_t unknown_id = 0;
-  std::int64_t malformed = 0;
-  std::int64_t error_frames = 0;
-  std::int64_t overflowed = 0;
-  std::int64_t tx_refused = 0;
-  std::int64_t late = 0;
+struct BusCounters {  // all since start
+  REED_BUS_T(REED_MEMBER)
 };
 
 /// lcmtypes/event_t.lcm; the text is looked up by code when the event leaves the program.

@@ -63,10 +63,7 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
 
 void Endpoint::Sample(std::uint32_t cycle, const HostPauses& host) {
   port_.Answer(cycle, robot_.Measure());
-  PlantRecord truth = robot_.Snapshot();
-  truth.host_pauses = host.count;
-  truth.host_pause_s = host.total_s;
-  journal_.Put(truth);
+  journal_.Put(robot_.Snapshot(host));
   if (cycle % shape_every_cycles_ == 0) journal_.Put(robot_.ShapeSnapshot());
 }
 

@@ -11,12 +11,6 @@
 
 namespace reed::plant {
 
-/// Since start, in which the arm's clock was held.
-struct HostPauses {
-  std::int64_t count = 0;
-  double total_s = 0.0;
-};
-
 class Endpoint {
  public:
   /// `transport`, `body` and `recorder` outlive the endpoint.

@@ -8,8 +8,6 @@
 namespace reed::plant {
 namespace {
 
-std::array<double, 3> ToArray(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 double Fastest(const Eigen::VectorXd& speed_radps) { return speed_radps.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -99,28 +97,12 @@ void Robot::Advance(double dt_s) {
   NoteContactChange();
 }
 
-PlantRecord Robot::Snapshot() const {
+PlantRecord Robot::Snapshot(const HostPauses& host) const {
   const Truth& truth = body_.truth();
-  PlantRecord r;
-  r.t_s = time_s_;
-  r.dof = static_cast<std::int32_t>(speeds_.size());
-  const auto copy = [](const Eigen::VectorXd& from, std::array<double, kMaxJoints>& to) {
-    std::copy_n(from.data(), from.size(), to.begin());
-  };
-  copy(truth.motor_angle_rad, r.motor_angle);
-  copy(truth.motor_speed_radps, r.motor_speed);
-  copy(truth.joint_angle_rad, r.joint_angle);
-  copy(drives_.torque_Nm(), r.torque);
-  r.braked = drives_.braked();
-  r.tip = ToArray(truth.tip_m);
-  r.tip_velocity = ToArray(truth.tip_velocity_mps);
-  r.contact_force = ToArray(truth.contact_force_N);
-  r.normal_force = truth.normal_force_N;
-  r.gap = truth.gap_m;
-  r.kinetic_J = truth.kinetic_J;
-  r.elastic_J = truth.elastic_J;
-  r.potential_J = truth.potential_J;
-  return r;
+  PlantRecord out;
+  out.dof = static_cast<std::int32_t>(speeds_.size());
+  REED_PLANT_T(REED_SET)
+  return out;
 }
 
 ShapeRecord Robot::ShapeSnapshot() {

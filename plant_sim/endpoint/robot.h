@@ -47,7 +47,7 @@ class Robot {
   void Advance(double dt_s);
 
   /// Truth of this instant for telemetry.
-  PlantRecord Snapshot() const;
+  PlantRecord Snapshot(const HostPauses& host) const;
 
   /// The arm's shape of this instant for telemetry, thinned out to what a record holds.
   ShapeRecord ShapeSnapshot();

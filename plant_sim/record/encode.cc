@@ -1,34 +1,13 @@
 #include "reed/plant/record/encode.h"
 
-#include <algorithm>
-
 namespace reed::plant {
 namespace {
 
-void FillJoints(const std::array<double, kMaxJoints>& from, std::int32_t dof, std::vector<double>& to) {
-  to.assign(from.begin(), from.begin() + dof);
-}
-
-void Fill(const PlantRecord& r, plant_t& m) {
-  m.utime = r.utime;
-  m.cycle = r.cycle;
-  m.t_s = r.t_s;
-  m.dof = r.dof;
-  FillJoints(r.motor_angle, r.dof, m.motor_angle);
-  FillJoints(r.motor_speed, r.dof, m.motor_speed);
-  FillJoints(r.joint_angle, r.dof, m.joint_angle);
-  FillJoints(r.torque, r.dof, m.torque);
-  m.braked = static_cast<std::int8_t>(r.braked);
-  std::copy(r.tip.begin(), r.tip.end(), m.tip);
-  std::copy(r.tip_velocity.begin(), r.tip_velocity.end(), m.tip_velocity);
-  std::copy(r.contact_force.begin(), r.contact_force.end(), m.contact_force);
-  m.normal_force = r.normal_force;
-  m.gap = r.gap;
-  m.kinetic_J = r.kinetic_J;
-  m.elastic_J = r.elastic_J;
-  m.potential_J = r.potential_J;
-  m.stalls = r.host_pauses;
-  m.stood_s = r.host_pause_s;
+void Fill(const PlantRecord& in, plant_t& out) {
+  out.utime = in.utime;
+  out.cycle = in.cycle;
+  const std::int32_t count = out.dof = in.dof;
+  REED_PLANT_T(REED_COPY)
 }
 
 void Fill(const EventRecord& r, event_t& m) {

@@ -8,22 +8,23 @@
 #include <variant>
 
 #include "reed/config/description/arm_structure.h"
+#include "reed/lcmtypes/fields/field.h"
+#include "reed/lcmtypes/generated/fields.h"
 
 namespace reed::plant {
 
-/// Mirrors lcmtypes/plant_t.lcm: units, frames and signs are there.
+/// Since start, in which the arm's clock was held.
+struct HostPauses {
+  std::int64_t count = 0;
+  double total_s = 0.0;
+};
+
+/// Numbers, units, frames and signs: lcmtypes/plant_t.lcm.
 struct PlantRecord {
   std::int64_t utime = 0;
   std::int64_t cycle = 0;
-  double t_s = 0.0;
   std::int32_t dof = 0;
-  std::array<double, kMaxJoints> motor_angle{}, motor_speed{}, joint_angle{}, torque{};
-  bool braked = true;
-  std::array<double, 3> tip{}, tip_velocity{}, contact_force{};
-  double normal_force = 0.0, gap = 0.0;
-  double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
-  std::int64_t host_pauses = 0;
-  double host_pause_s = 0.0;
+  REED_PLANT_T(REED_MEMBER)
 };
 
 /// Mirrors lcmtypes/shape_t.lcm. Its size keeps the message below one datagram.

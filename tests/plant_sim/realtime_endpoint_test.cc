@@ -152,8 +152,8 @@ TEST_F(Realtime, TheArmsClockIsHeldInAHostPause) {
   At(101 * kMs);
   EXPECT_EQ(state(), DriveState::kEnabled) << "of 99 ms the arm has seen one";
   EXPECT_NEAR(recorder_.Plants().back().t_s, 3e-3, 1e-12);
-  EXPECT_EQ(recorder_.Plants().back().host_pauses, 1);
-  EXPECT_NEAR(recorder_.Plants().back().host_pause_s, 98e-3, 1e-12);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 1);
+  EXPECT_NEAR(recorder_.Plants().back().stood_s, 98e-3, 1e-12);
   EXPECT_EQ(recorder_.Count(PlantEvent::kHostPause), 1);
 
   controller_.Sync(3);
@@ -169,7 +169,7 @@ TEST_F(Realtime, APauseInALateCycleHoldsTheArmForThePauseAlone) {
   controller_.Sync(2);
   At(6 * kMs);  // five after the last answer, two of them the host's
   EXPECT_NEAR(recorder_.Plants().back().t_s, 4e-3, 1e-12);
-  EXPECT_EQ(recorder_.Plants().back().host_pauses, 1);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 1);
 }
 
 TEST_F(Realtime, ShortPausesAreCountedWithoutALine) {
@@ -178,7 +178,7 @@ TEST_F(Realtime, ShortPausesAreCountedWithoutALine) {
     paused_ns_ += kMs;
     Cycle(2 * k, DriveRequest::kEnable);
   }
-  EXPECT_EQ(recorder_.Plants().back().host_pauses, 10);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 10);
   EXPECT_EQ(recorder_.Count(PlantEvent::kHostPause), 0);
 }
 
@@ -196,7 +196,7 @@ TEST_F(Realtime, PausesBeforeTheFirstSyncAreNobodysLoss) {
   At(600 * kMs);
   controller_.Sync(0);
   At(601 * kMs);
-  EXPECT_EQ(recorder_.Plants().back().host_pauses, 0);
+  EXPECT_EQ(recorder_.Plants().back().stalls, 0);
 }
 
 TEST_F(Realtime, AStaleCommandIsRefused) {

@@ -31,8 +31,8 @@ PlantRecord NumberedRecord(int k) {
   record.tip = {0.1, 0.2, 0.3};
   record.gap = 1e9;
   record.potential_J = 7.0;
-  record.host_pauses = std::int64_t{3} * k;
-  record.host_pause_s = 0.25;
+  record.stalls = std::int64_t{3} * k;
+  record.stood_s = 0.25;
   return record;
 }
 

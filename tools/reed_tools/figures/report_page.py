@@ -79,6 +79,12 @@ def parameters(summary: dict, arm: dict) -> str:
         [name, *(number(value) for value in values), unit_of(arm, name)] for name, *values in zip(known["names"], *columns)])
 
 
+def scalars(summary: dict) -> str:
+    return table(["scalar", "smallest", "largest", "mean", "last", "unit", "meaning"], [
+        [name, *(number(figures[key]) for key in ("min", "max", "mean", "last")), figures["unit"], figures["meaning"]]
+        for name, figures in summary["scalars"].items()], text=(5, 6))
+
+
 def origin(summary: dict) -> str:
     """How to repeat the run, and with what."""
     versions, machine = summary["versions"], summary["machine"]
@@ -95,7 +101,7 @@ def sections(summary: dict, effective: dict, effective_text: str, pictures: list
     shown = "\n".join(picture(path, captions[path.stem]) for path in pictures)
     loop = "".join(f"<p>{html.escape(line)}</p>" for line in lines(summary))
     return [("Checks", checks(summary)), ("Error by second", windows(summary)), ("What happened", happened(summary)), ("Pictures", shown),
-            ("Parameters", parameters(summary, effective["arm"])), ("Loop, bus and clock", loop + timing(summary)),
+            ("Parameters", parameters(summary, effective["arm"])), ("Recorded scalars", scalars(summary)), ("Loop, bus and clock", loop + timing(summary)),
             ("The same run again", origin(summary)),
             ("Effective configuration", f"<p>SHA-256 {summary['config_sha256']}</p><pre>{html.escape(effective_text)}</pre>")]
 

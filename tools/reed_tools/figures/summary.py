@@ -4,7 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from reed_tools.figures import checks, events, metrics
+from reed_tools.figures import checks, events, metrics, scalars
 from reed_tools.figures.run_data import RunData
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.signals import Signals, join
@@ -51,6 +51,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "windows": metrics.windows(signals, rate_hz),
         "parameters": metrics.parameters(recording, [
             {"name": name, "truth": truth} for name, truth in zip(arm["param_names"], arm["p_true"])]),
+        "scalars": scalars.of_run(recording),
         "versions": origin["versions"] or dict.fromkeys(("reed", "commit", "build")),
         "command": origin["command"],
         "digest": recording.digest(clock),

@@ -1,38 +1,20 @@
 """Many equal messages decoded at once: the .lcm file as a numpy record type. A minute of telemetry is 300 000 messages;
 the generated classes need half a minute for them, this needs a tenth of a second."""
 
-import re
-from typing import NamedTuple
-
 import numpy as np
 
 from reed_tools.errors import RunError
 from reed_tools.paths import ROOT
+from reed_tools.record import lcm_file
+from reed_tools.record.lcm_file import Field
 
 SCALARS = {"int8_t": "i1", "boolean": "?", "int32_t": ">i4", "int64_t": ">i8", "float": ">f4", "double": ">f8"}
-FIELD = re.compile(r"^\s*(\w+)\s+(\w+)((?:\[\w+\])?)\s*;[^\S\n]*(?://[^\S\n]*(.*))?$", re.MULTILINE)
-UNIT = re.compile(r"(%|us|ns|s|rad(?:/s(?:\^2)?)?|rad/m|N·m(?:·s/rad)?|N·s|N/m|N|m(?:/s)?|J|1/s)(?=[,; ]|$)")
 FINGERPRINT = np.dtype((np.void, 8))
-
-
-class Field(NamedTuple):
-    kind: str           # scalar type
-    name: str
-    length: str | None  # of an array: a number or an earlier field
-    comment: str
-
-    @property
-    def unit(self) -> str:
-        """What the comment begins with, "" for a number without unit."""
-        found = UNIT.match(self.comment)
-        return found[1] if found else ""
 
 
 def fields(type_name: str) -> list[Field]:
     """In the order of lcmtypes/TYPE.lcm."""
-    text = (ROOT / "lcmtypes" / f"{type_name}.lcm").read_text()
-    body = text[text.index("{"):]
-    return [Field(kind, name, length.strip("[]") or None, comment.strip()) for kind, name, length, comment in FIELD.findall(body)]
+    return lcm_file.fields(ROOT / "lcmtypes" / f"{type_name}.lcm")
 
 
 def record_type(type_name: str, sample) -> np.dtype:
