@@ -19,6 +19,8 @@ ARROWS = {
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},
     "export": {"record", "robots", "run"},
+    "scenarios": {"robots", "run"},
+    "identify": {"export", "record", "robots", "scenarios", "show"},
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},

@@ -1,0 +1,1 @@
+"""Scenarios made for an arm by rule: gains, motions, walls."""
