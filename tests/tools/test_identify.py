@@ -12,7 +12,7 @@ import pytest
 from reed_tools.errors import UsageError
 from reed_tools.identify import base, excite, feasible, filtering, least_squares, samples, write
 from reed_tools.paths import BUILD, PYTHON, ROOT
-from reed_tools.robots import nominal, regressor
+from reed_tools.robots import nominal, pseudo_inertia, regressor
 
 SIGMAS = 3.0
 
@@ -103,7 +103,7 @@ def test_the_bodies_are_possible_and_have_the_base_parameters(found):
     arm = nominal.load("a5")
     own = base.base_of(arm)
     bodies = [nominal.inertial(body["mass"], body["com"], body["inertia_about_com"]) for body in found["bodies"]]
-    assert all(feasible.possible(body) for body in bodies)
+    assert all(pseudo_inertia.possible(body) for body in bodies)
     friction = [row["estimate"] for row in found["parameters"][-2 * arm.dof:]]
     assert min(friction) >= 0
     again = own.B @ np.concatenate([*bodies, friction])
@@ -116,7 +116,7 @@ def test_an_estimate_that_no_body_has_gives_the_nearest_that_bodies_have():
     wanted = own.B @ np.concatenate([arm.inertial, np.zeros(4)])
     wanted[own.names.index("Izz2")] = -0.01
     everything, distance = feasible.nearest(own.B, wanted, np.eye(len(wanted)) * 1e4, arm.inertial, np.zeros(4))
-    assert 0.01 < distance and all(feasible.possible(body) for body in everything[:20].reshape(2, 10))
+    assert 0.01 < distance and all(pseudo_inertia.possible(body) for body in everything[:20].reshape(2, 10))
     assert (own.B @ everything)[own.names.index("Izz2")] > 0
 
 

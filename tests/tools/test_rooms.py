@@ -19,6 +19,7 @@ ARROWS = {
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},
     "export": {"record", "robots", "run"},
+    "arms": {"record", "robots", "show"},
     "scenarios": {"robots", "run"},
     "identify": {"export", "record", "robots", "scenarios", "show"},
     "run": {"figures", "law", "record"},

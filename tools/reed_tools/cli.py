@@ -21,6 +21,7 @@ COMMANDS = {
     "export": ("export.command", "a run as MCAP, CSV, Parquet, or its bus as ASC, BLF"),
     "decode": ("export.decode_command", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
+    "arm": ("arms.command", "arm files from and to URDF, judged, drawn"),
     "identify": ("identify.command", "inertial parameters and friction from recorded runs, or the motion to record"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),

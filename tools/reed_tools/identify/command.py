@@ -9,10 +9,11 @@ from reed_tools import folders
 from reed_tools.errors import UsageError
 from reed_tools.identify import least_squares, samples, write
 from reed_tools.identify.base import Base, base_of
-from reed_tools.identify.feasible import body_parts, nearest
+from reed_tools.identify.feasible import nearest
 from reed_tools.identify.structural import Structural, structural
 from reed_tools.robots import nominal
 from reed_tools.robots.nominal import NominalArm
+from reed_tools.robots.pseudo_inertia import body_parts
 
 CUTOFF_HZ = 8.0
 LARGEST_DISTANCE = 3.0  # standard deviations per square root of a parameter: bodies that are further off are reported

@@ -1,10 +1,11 @@
-"""Parameters that bodies can have. A body's pseudo-inertia [[S, h], [hᵀ, m]], S = ½ tr(I) 1 − I, is positive definite exactly
-if some mass distribution has it, and linear in the ten parameters; friction is positive. So the possible parameters are a
-convex set, and those nearest to an estimate, by its own covariance, are found with a logarithmic barrier."""
+"""Parameters that bodies can have. A body's pseudo-inertia is positive definite and linear in the ten parameters; friction is
+positive. So the possible parameters are a convex set, and those nearest to an estimate, by its own covariance, are found with a
+logarithmic barrier."""
 
 import numpy as np
 
-from reed_tools.robots.regressor import CELLS, PER_LINK
+from reed_tools.robots.pseudo_inertia import body_of, matrix_of
+from reed_tools.robots.regressor import PER_LINK
 
 LEAST_MASS_kg, LEAST_RADIUS_m, LEAST_FRICTION = 0.02, 0.02, 1e-3  # of the start
 LAST_BARRIER, FALL = 1e-6, 0.1
@@ -12,36 +13,7 @@ STEPS, DECREMENT = 60, 1e-6  # of Newton, per barrier
 WIDE = 30.0        # prior deviation of what torques do not show, times the arm's size
 
 
-def matrix_of(body: np.ndarray) -> np.ndarray:
-    """Pseudo-inertia of ten parameters."""
-    inertia = np.zeros((3, 3))
-    for value, (i, j) in zip(body[4:], CELLS):
-        inertia[i, j] = inertia[j, i] = value
-    P = np.zeros((4, 4))
-    P[:3, :3] = 0.5 * np.trace(inertia) * np.eye(3) - inertia
-    P[:3, 3] = P[3, :3] = body[1:4]
-    P[3, 3] = body[0]
-    return P
-
-
-def body_of(P: np.ndarray) -> np.ndarray:
-    inertia = np.trace(P[:3, :3]) * np.eye(3) - P[:3, :3]
-    return np.array([P[3, 3], *P[:3, 3], *(inertia[cell] for cell in CELLS)])
-
-
-def body_parts(body: np.ndarray) -> dict:
-    """As an arm file writes a body."""
-    P = matrix_of(body)
-    centre = P[:3, 3] / P[3, 3]
-    spread = P[:3, :3] - P[3, 3] * np.outer(centre, centre)
-    return {"mass": float(P[3, 3]), "com": centre.tolist(), "inertia_about_com": (np.trace(spread) * np.eye(3) - spread).tolist()}
-
-
 UNIT = np.array([matrix_of(unit) for unit in np.eye(PER_LINK)])  # ∂P/∂parameter
-
-
-def possible(body: np.ndarray) -> bool:
-    return bool(np.linalg.eigvalsh(matrix_of(body))[0] > 0)
 
 
 def nearby_possible(body: np.ndarray) -> np.ndarray:

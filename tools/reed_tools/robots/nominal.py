@@ -31,6 +31,7 @@ class NominalArm:
     shapes: np.ndarray         # [10 dof, P]: inertial parameters per unit of p
     viscous: np.ndarray        # [dof, P], N·m·s/rad per unit of p
     coulomb: np.ndarray        # N·m, nominal
+    coulomb_declared: np.ndarray  # N·m, of the data sheet
     bends: bool                # its links do, too
 
     @property
@@ -78,7 +79,8 @@ def of_table(arm: dict, where: str) -> NominalArm:
     per_joint = {key: per_joint_numbers(arm, key, chain.dof, default) for key, default in DEFAULTS.items()}
     return NominalArm(arm.get("name", "arm"), chain, *per_joint.values(), known=known(arm, shapes, names, chain.dof), names=names, p=p,
                       p_lo=p_lo, p_hi=p_hi, shapes=shapes, viscous=viscous,
-                      coulomb=per_joint_numbers(arm, "coulomb_nominal", chain.dof, 0.0), bends=bool(arm.get("sections") or arm.get("member")))
+                      coulomb=per_joint_numbers(arm, "coulomb_nominal", chain.dof, 0.0), coulomb_declared=per_joint_numbers(arm, "coulomb_declared", chain.dof, 0.0),
+                      bends=bool(arm.get("sections") or arm.get("member")))
 
 
 DEFAULTS = {"rotor_inertia_reflected": 0.0, "joint_stiffness": np.inf, "torque_limit": np.inf, "position_min": -2.9,
@@ -138,7 +140,7 @@ def known(arm: dict, shapes: np.ndarray, names: list[str], dof: int) -> np.ndarr
 
 def inertial(mass: float, com=None, inertia_about_com=None) -> np.ndarray:
     """The ten parameters of one body."""
-    m, first, about_origin = rigid_arm.moments(mass, com or [0.0] * 3, np.zeros((3, 3)) if inertia_about_com is None else inertia_about_com)
+    m, first, about_origin = rigid_arm.moments(mass, np.zeros(3) if com is None else com, np.zeros((3, 3)) if inertia_about_com is None else inertia_about_com)
     return np.array([m, *first, *(about_origin[cell] for cell in CELLS)])
 
 

@@ -1,0 +1,1 @@
+"""Arm files: from and to URDF, judged, drawn."""
