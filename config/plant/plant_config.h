@@ -18,7 +18,7 @@ struct PlantModelConfig {
   int elements_per_link = 1;  // beam elements per straight member
   double damping_ratio =
       0.005;  // structural damping of every elastic mode, stiffness-proportional at the first mode
-  double max_step_s = 0.5e-3;    // largest integration step
+  double max_step_s = 1e-3;      // largest integration step
   double stiffness_scale = 1.0;  // scales joint and link stiffness alike
   double joint_stiffness_scale = 1.0;
   double friction_scale = 1.0;   // scales viscous and Coulomb friction

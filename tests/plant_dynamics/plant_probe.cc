@@ -3,7 +3,8 @@
 //   plant_probe swing LINKS_BEND STIFFNESS_SCALE STEP_S MS   motor and joint angles every 10 ms, driven
 //   plant_probe load Q1 ... Q5 FX FY FZ                      tip under a small force, rigid joints, no weight
 //   plant_probe bench JOINTS LINKS_BEND ELEMENTS STEP_S SECONDS   processor time per simulated second, in
-//                                                            contact; a5 for 0 joints, else equal links
+//                                                            contact; a5 for 0 joints, else equal links; and the
+//                                                            tip's path, every 10 ms, on its way to rest
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -137,6 +138,7 @@ void Bench(int joints, bool links_bend, int elements, double step_s, double seco
   plant.Reset(pose);
   constexpr int kSlice_ms = 50;
   double fewest = 1e9;
+  std::vector<double> path_m;
   // The quickest slice: what else runs on this machine does not count.
   for (int slice = 0; slice < static_cast<int>(1e3 * seconds) / kSlice_ms; ++slice) {
     const std::clock_t start = std::clock();
@@ -144,11 +146,13 @@ void Bench(int joints, bool links_bend, int elements, double step_s, double seco
       const VectorXd torque =
           K_d.cwiseProduct(15.0 * (pose - plant.truth().motor_angle_rad) - plant.truth().motor_speed_radps);
       plant.Advance(torque, false, 1e-3);
+      if (i % 10 == 9) path_m.insert(path_m.end(), plant.truth().tip_m.begin(), plant.truth().tip_m.end());
     }
     fewest = std::min(fewest, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
-  std::printf("{\"coordinates\": %d, \"force_N\": %.6g, \"cpu_per_simulated_s\": %.6g}\n",
+  std::printf("{\"coordinates\": %d, \"force_N\": %.6g, \"cpu_per_simulated_s\": %.6g, ",
               plant.num_coordinates(), plant.truth().normal_force_N, fewest / (1e-3 * kSlice_ms));
+  PrintList("path_m", path_m, "}\n");
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 `tools/reed bench plant`.
 
 MuJoCo has the same motors and elastic joints; its members are rigid pieces joined by elastic hinges (mujoco_chain.py).
-Each of its integrators runs at the largest step of 4 ms / √2^k at which the state stays bounded."""
+Each of its integrators runs at the largest step of 4 ms / √2^k at which the state stays bounded. The error of a step is the
+largest distance between the tip's path to rest and the same side's path at steps of 10 us: what the step costs in accuracy, not
+what the model does."""
 
 import importlib.util
 import json
@@ -18,13 +20,14 @@ from reed_tools.bench.rows import Found, Row
 from reed_tools.errors import RunError
 from reed_tools.paths import program
 
-DEFAULT_STEP_S = 0.5e-3      # plant.max_step_s
+DEFAULT_STEP_S = 1e-3        # plant.max_step_s
 ELEMENTS = (1, 2, 3, 4)      # per member; 1 is the default
 JOINTS = (2, 3, 4, 5, 6, 7, 8)   # of a chain of equal links, one element each
 CUTS = (1, 2, 4)             # of MuJoCo's members: 16, 22, 34 coordinates
 STEPS_S = [4e-3 / 2 ** (k / 2) for k in range(22)]
 INTEGRATORS = ("RK4", "implicit", "implicitfast")
-ANCHORS = ("RK4", "implicit")   # implicitfast, which leaves terms out, is measured and drawn beside them
+FINE_STEP_S = 1e-5
+PATH_S, PATH_EVERY_S = 0.3, 0.01
 FASTEST_RADPS = 50.0         # a held arm that moves faster than this has come apart
 SLICE_S, SLICES = 0.05, 30     # simulated; the quickest counts
 
@@ -35,6 +38,7 @@ class Cost:
     coordinates: int
     step_s: float
     times_real_time: float
+    error_mm: float | None = None    # of the tip's path, against steps of FINE_STEP_S
 
 
 def measure(_arguments, folder: Path) -> Found:
@@ -42,16 +46,17 @@ def measure(_arguments, folder: Path) -> Found:
     if not importlib.util.find_spec("mujoco"):
         return Found(notes=["the plant is not compared: MuJoCo is missing, it comes with tools/requirements-test.txt"])
     programs.build("plant_probe")
-    ours = [plant(0, elements, step) for elements in ELEMENTS for step in (2 * DEFAULT_STEP_S, DEFAULT_STEP_S)]
+    ours = [plant(0, elements, step) for elements in ELEMENTS for step in (DEFAULT_STEP_S, DEFAULT_STEP_S / 2)]
     joints = [plant(count, 1, DEFAULT_STEP_S) for count in JOINTS]
     theirs = mujoco_costs(probe("arm"))
     from reed_tools.bench import plant_plot  # matplotlib: after the measurement
 
     plant_plot.draw(ours, joints, theirs, folder / "plant_speed.png")
     default = next(cost for cost in ours if cost.step_s == DEFAULT_STEP_S)
-    rows = [Row(f"bending plant, {default.coordinates} coordinates, × real time", default.times_real_time, cost.times_real_time,
-                "×", 1.0, f"MuJoCo {cost.side}, {cost.coordinates} coordinates", less_is_better=False)
-            for cost in theirs if cost.side in ANCHORS]
+    rows = [Row(f"bending plant, {default.coordinates} coordinates, step error {default.error_mm:.2g} mm, × real time",
+                default.times_real_time, cost.times_real_time, "×", 1.0,
+                f"MuJoCo {cost.side}, {cost.coordinates} coordinates, step error {cost.error_mm:.2g} mm", less_is_better=False)
+            for cost in theirs]
     return Found(rows, details={"plant": [asdict(cost) for cost in (*ours, *joints, *theirs)]})
 
 
@@ -66,11 +71,21 @@ def plant(joints: int, elements: int, step_s: float) -> Cost:
     """a5, or a chain of so many equal links where `joints` is not zero."""
     found = probe("bench", joints, 1, elements, step_s, SLICES * SLICE_S)
     side = f"{joints} joints" if joints else f"{elements} element{'s' if elements > 1 else ''} per member"
-    return report(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"]), "plant")
+    error_mm = None if joints else farthest_mm(path(found), path(probe("bench", 0, 1, elements, FINE_STEP_S, PATH_S)))
+    return report(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"], error_mm), "plant")
+
+
+def path(found: dict) -> np.ndarray:
+    return np.reshape(found["path_m"], (-1, 3))[:round(PATH_S / PATH_EVERY_S)]
+
+
+def farthest_mm(tips_m: np.ndarray, reference_m: np.ndarray) -> float:
+    return 1e3 * float(np.linalg.norm(tips_m - reference_m, axis=1).max())
 
 
 def report(cost: Cost, whose: str) -> Cost:
-    print(f"  {whose:7}{cost.side:23}{cost.coordinates:4} coordinates{1e6 * cost.step_s:6.0f} us{cost.times_real_time:8.1f} x real time", flush=True)
+    error = "" if cost.error_mm is None else f"{cost.error_mm:9.2g} mm step error"
+    print(f"  {whose:7}{cost.side:23}{cost.coordinates:4} coordinates{1e6 * cost.step_s:6.0f} us{cost.times_real_time:8.1f} x real time{error}", flush=True)
     return cost
 
 
@@ -82,13 +97,29 @@ def mujoco_costs(arm: dict) -> list[Cost]:
     for cuts in CUTS:
         for integrator in INTEGRATORS:
             chain = Chain(arm, cuts, integrator)
-            floor = float(at_pose(chain.model(1e-5, None)).site("tip").xpos[2]) - 0.0015
+            floor = float(at_pose(chain.model(FINE_STEP_S, None)).site("tip").xpos[2]) - 0.0015
+            reference = mujoco_path(mujoco, chain.model(FINE_STEP_S, floor), FINE_STEP_S)
             for step in STEPS_S:
                 model = chain.model(step, floor)
                 if (spent := processor_time(mujoco, model, at_pose(model), step)) is not None:
-                    costs.append(report(Cost(integrator, model.nv, step, 1.0 / spent), "MuJoCo"))
+                    error_mm = farthest_mm(mujoco_path(mujoco, model, step), reference)
+                    costs.append(report(Cost(integrator, model.nv, step, 1.0 / spent, error_mm), "MuJoCo"))
                     break
     return costs
+
+
+def mujoco_path(mujoco, model, step_s: float) -> np.ndarray:
+    """The tip every PATH_EVERY_S; between two steps on the straight line that joins them."""
+    from reed_tools.robots.mujoco_chain import at_pose
+    data, times, tips = at_pose(model), [0.0], []
+    tips.append(data.site("tip").xpos.copy())
+    while times[-1] < PATH_S:
+        mujoco.mj_step(model, data)
+        mujoco.mj_kinematics(model, data)   # mj_step leaves the positions of its start
+        times.append(data.time)
+        tips.append(data.site("tip").xpos.copy())
+    at = PATH_EVERY_S * np.arange(1, round(PATH_S / PATH_EVERY_S) + 1)
+    return np.stack([np.interp(at, times, axis) for axis in np.transpose(tips)], axis=1)
 
 
 def processor_time(mujoco, model, data, step_s: float) -> float | None:
