@@ -31,6 +31,9 @@ struct PlantModelConfig {
 struct DriveConfig {
   int torque_bits = 16;             // resolution over plus/minus the arm's torque limit
   int command_timeout_cycles = 20;  // periods without a valid command before the brakes close
+  int excitation_joint = 0;         // from 1; 0: no excitation
+  double excitation_Nm = 0.0;       // of each sinusoid that is added to this joint's torque
+  std::vector<double> excitation_hz;
 };
 
 /// [sensors] from the truth to a frame.

@@ -40,6 +40,22 @@ class PlantRules : public RuleContext {
       Fail("disturbance.step_N", "does nothing without disturbance.step_s");
   }
 
+  void ExcitationDoesSomething() const {
+    const DriveConfig& c = s_.drives;
+    const bool joint = c.excitation_joint > 0, torque = c.excitation_Nm > 0.0,
+               lines = !c.excitation_hz.empty();
+    if (joint != torque || joint != lines)
+      Fail("drives.excitation_joint",
+           "excitation_joint, excitation_Nm and excitation_hz do nothing without each other");
+    if (c.excitation_joint > static_cast<int>(s_.arm.rotor_inertia_kgm2.size()))
+      Fail("drives.excitation_joint", ToText(c.excitation_joint) + ": the arm has " +
+                                          ToText(static_cast<int>(s_.arm.rotor_inertia_kgm2.size())) +
+                                          " joints");
+    for (const double f : c.excitation_hz)
+      if (f >= 0.5 * s_.timing.rate_hz)
+        Fail("drives.excitation_hz", ToShortText(f) + " Hz is not below half of timing.rate_hz");
+  }
+
   /// With the true bodies: what the motors have to hold.
   void ArmHoldsItself() const {
     const RigidPose pose = PoseOf(s_.arm, s_.reference.start_rad);
@@ -205,6 +221,7 @@ void CheckPlausiblePlant(const Document& doc, const Scenario& scenario) {
   const PlantRules rules(doc, scenario);
   rules.LossEndsAfterItsStart();
   rules.DisturbanceDoesSomething();
+  rules.ExcitationDoesSomething();
 }
 
 void CheckPlausibleLaw(const Document& doc, const Scenario& scenario) {

@@ -38,6 +38,11 @@ void Fields(V& v, DriveConfig& c) {
             "resolution of the torque over plus/minus the torque limit");
   v.Integer("command_timeout_cycles", c.command_timeout_cycles, {"1", 1, 1000},
             "periods without a valid command before the brakes close");
+  v.Integer("excitation_joint", c.excitation_joint, {"1", 0, kMaxJoints},
+            "joint, from 1, whose applied torque has sinusoids added while its brakes are open (tools/reed "
+            "bode); 0: none");
+  v.Number("excitation_Nm", c.excitation_Nm, {"N·m", 0, 1000}, "of each sinusoid");
+  v.Numbers("excitation_hz", c.excitation_hz, {"Hz", 0.01, 4000}, "one sinusoid per entry");
 }
 
 /// What a data sheet says, and so the controller knows.

@@ -17,6 +17,7 @@ Robot::Robot(const PlantConfig& config, ArmBody& body, Journal& journal)
       journal_(journal),
       start_rad_(Eigen::Map<const Eigen::VectorXd>(config.start_rad.data(), config.arm.dof())),
       drives_(config.arm, config.drives),
+      excitation_(config.drives),
       encoder_(config.sensors.encoder_bits),
       speeds_(static_cast<std::size_t>(config.arm.dof()), VelocityFilter(config.sensors.velocity_filter_hz)),
       wrench_(config.sensors, config.seed) {
@@ -26,6 +27,7 @@ Robot::Robot(const PlantConfig& config, ArmBody& body, Journal& journal)
 void Robot::Reset() {
   body_.Reset(start_rad_);
   drives_.Reset();
+  applied_Nm_ = drives_.torque_Nm();
   wrench_.Reset();
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     speeds_[i].Reset(encoder_.Read(start_rad_[static_cast<Eigen::Index>(i)]));
@@ -87,7 +89,9 @@ void Robot::Silence(double periods) {
 }
 
 void Robot::Advance(double dt_s) {
-  body_.Advance(drives_.torque_Nm(), drives_.braked(), dt_s);
+  applied_Nm_ = drives_.torque_Nm();
+  if (excitation_.active() && !drives_.braked()) applied_Nm_[excitation_.joint()] += excitation_.At(time_s_);
+  body_.Advance(applied_Nm_, drives_.braked(), dt_s);
   time_s_ += dt_s;
   if (!body_.healthy()) {
     const bus::DriveState before = drives_.state();

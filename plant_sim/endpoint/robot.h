@@ -10,6 +10,7 @@
 #include "reed/bus/codec/messages.h"
 #include "reed/config/plant/plant_config.h"
 #include "reed/plant/drive/drive_chain.h"
+#include "reed/plant/drive/torque_excitation.h"
 #include "reed/plant/endpoint/arm_body.h"
 #include "reed/plant/endpoint/journal.h"
 #include "reed/plant/sensor/encoder.h"
@@ -65,6 +66,8 @@ class Robot {
   Journal& journal_;
   Eigen::VectorXd start_rad_;
   DriveChain drives_;
+  TorqueExcitation excitation_;
+  Eigen::VectorXd applied_Nm_;  // of the drives and the excitation
   Encoder encoder_;
   std::vector<VelocityFilter> speeds_;
   WrenchSensor wrench_;

@@ -25,6 +25,7 @@ ARROWS = {
     "run": {"figures", "law", "record"},
     "campaign": {"figures", "record", "run", "show"},
     "paper": {"figures", "record", "robots", "run", "show"},
+    "bode": {"record", "run", "show"},
     "bench": {"law", "record", "robots", "show"},
     "machine": {"run", "show"},
     "testing": {"run"},

@@ -23,6 +23,7 @@ COMMANDS = {
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
     "arm": ("arms.command", "arm files from and to URDF, judged, drawn"),
     "identify": ("identify.command", "inertial parameters and friction from recorded runs, or the motion to record"),
+    "bode": ("bode.command", "gain, phase and margins of one joint's loop, measured with a multisine"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
     "paper": ("paper.command", "the paper's experiments, reproduced on one page"),
