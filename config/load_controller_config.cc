@@ -9,4 +9,6 @@ ControllerConfig LoadControllerConfig(const std::string& name_or_path, const Loa
   return ControllerHalf(LoadScenario(name_or_path, options));
 }
 
+std::string TextOf(const ControllerConfig& config) { return ToToml(config); }
+
 }  // namespace reed

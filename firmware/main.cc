@@ -2,7 +2,7 @@
 // real-time scope; then the books are closed.
 //
 //   SYNC -> ArmBus -> Separated strategy -> Limits -> COMMAND
-//             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump
+//             `-> Snapshot -> ring -> Recorder (own thread) -> LCM, event log, candump, tape
 #include <memory>
 
 #include "options.h"
@@ -24,7 +24,7 @@ int Run(const Options& options) {
   if (options.control.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
   if (options.control.host_pause) RefuseHostPauseOnRealDrives(*transport);
   RefuseSecondController(*transport);
-  return ControlArm(options.control, scenario, loop, *transport);
+  return ControlArm(options.control, scenario, TextOf(scenario), loop, *transport);
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ Options ParseOptions(int argc, char** argv) {
                "open the brakes once every joint is measured; without it the arm is only measured");
   app.add_option("--log", options.control.log, "LCM event log that gets every message");
   app.add_option("--candump", options.control.candump, "CAN log in candump -L format");
+  app.add_option("--tape", options.control.tape, "all that a replay of the controller needs, cycle by cycle");
+  app.add_option("--tape-commit", options.control.commit, "the programs' commit, as the tape names it");
   app.add_option("--law", options.control.law,
                  "a law from outside: a shared library with the functions of reed/law.h, LIB.so[:ARGUMENT]");
   app.add_flag("--seccomp", options.control.seccomp,

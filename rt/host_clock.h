@@ -32,10 +32,19 @@ struct Instant {
   std::int64_t own_ns;
 };
 
+/// A clock that knows both times of an instant by itself, as that of a replay does.
+template <typename T>
+concept InstantClock = Clock<T> && requires(const T clock) {
+  { clock.ReadInstant() }
+  noexcept->std::same_as<Instant>;
+};
+
 /// A pause that comes between the two readings is seen by a third one; then both are taken again.
 template <Clock C>
 Instant ReadInstant(const C& clock) noexcept {
-  if constexpr (HostClock<C>) {
+  if constexpr (InstantClock<C>) {
+    return clock.ReadInstant();
+  } else if constexpr (HostClock<C>) {
     const std::int64_t paused_ns = clock.paused_ns();
     const std::int64_t now_ns = clock.NowNs();
     const std::int64_t paused_since_ns = clock.paused_ns();

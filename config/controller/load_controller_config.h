@@ -12,4 +12,7 @@ namespace reed {
 /// between keys. Throws ConfigError: one line with file, line, key and what is allowed.
 ControllerConfig LoadControllerConfig(const std::string& name_or_path, const LoadOptions& options = {});
 
+/// As the reader takes it back: every key, after defaults and overrides.
+std::string TextOf(const ControllerConfig& config);
+
 }  // namespace reed

@@ -1,5 +1,5 @@
 // The realtime loop, over any clock: the program's is CLOCK_MONOTONIC, that of a bench also knows the host's
-// pauses (rt/host_clock.h), the tests' moves by calls. RT: safe.
+// pauses (rt/host_clock.h), that of a replay has read its times before, the tests' moves by calls. RT: safe.
 #pragma once
 
 #include "reed/firmware/loop/stepper.h"
@@ -32,15 +32,14 @@ class RealtimeLoop {
       last_start_ns_ = start.now_ns;
       // The receive phase ends on its own budget: what comes later is taken with the next cycle's frames.
       const std::int64_t rx_deadline_ns = start.now_ns + options_.phases.budget_ns[0];
-      result_.status =
-          stepper_.Step(start.now_ns, start.now_ns - point_.now_ns, rx_deadline_ns, state_, result_);
+      result_.status = stepper_.Step(point_, start, rx_deadline_ns, state_, result_);
       WatchPhases();
       const rt::Instant end = rt::ReadInstant(clock_);
       if (result_.status == CycleStatus::kRunning &&
           silence.TooLong(stepper_.snapshot().bus.frames_rx, end.own_ns))
         result_.status = CycleStatus::kBusLost;
       Schedule(start, end);
-      stepper_.Close(result_);
+      stepper_.Close(end, result_);
       if (result_.status != CycleStatus::kRunning) break;
     }
     result_.wall_s = static_cast<double>(clock_.NowNs() - begin.now_ns) * 1e-9;

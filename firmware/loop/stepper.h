@@ -3,6 +3,7 @@
 
 #include "reed/firmware/loop/loop.h"
 #include "reed/rt/clock.h"
+#include "reed/rt/host_clock.h"
 
 namespace reed {
 
@@ -14,19 +15,22 @@ class Stepper {
  public:
   Stepper(CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept : cycle_(cycle), ring_(ring) {}
 
-  /// Runs one cycle. The loop may write to its snapshot until Close().
-  CycleStatus Step(std::int64_t now_ns, std::int64_t wake_ns, std::int64_t rx_deadline_ns,
+  /// Runs one cycle, which is due at `point` and begins at `start`. The loop may write to its snapshot until
+  /// Close().
+  CycleStatus Step(const rt::Instant& point, const rt::Instant& start, std::int64_t rx_deadline_ns,
                    const CycleState& state, LoopResult& result) noexcept {
     slot_ = ring_.Claim();
     if (slot_ == nullptr) ++result.dropped;
     telemetry::Snapshot& now = snapshot();
     now.ClearLists();
     now.cycle = result.cycles;
-    now.time_ns = now_ns;
+    now.time_ns = start.now_ns;
     now.timing = {};
-    now.timing.wake_ns = rt::ShortNs(wake_ns);
+    now.timing.wake_ns = rt::ShortNs(start.now_ns - point.now_ns);
+    NoteLoop(point, start, state, now.loop);
     const CycleStatus status =
         cycle_.Run(static_cast<std::uint32_t>(result.cycles), rx_deadline_ns, state, now);
+    now.loop.bus_alive = status != CycleStatus::kBusLost;
     ++result.cycles;
     return status;
   }
@@ -51,8 +55,12 @@ class Stepper {
     now.AddEvent(event);
   }
 
-  void Close(const LoopResult& result) noexcept {
+  /// end: read behind the cycle.
+  void Close(const rt::Instant& end, const LoopResult& result) noexcept {
     telemetry::Snapshot& now = snapshot();
+    now.loop.end_ns = end.now_ns;
+    now.loop.end_own_ns = end.own_ns;
+    now.loop.status = static_cast<std::int8_t>(result.status);
     now.timing.missed = result.missed;
     now.timing.missed_host_paused = result.missed_host_paused;
     now.timing.overruns = result.overruns;
@@ -62,6 +70,21 @@ class Stepper {
   }
 
  private:
+  static void NoteLoop(const rt::Instant& point, const rt::Instant& start, const CycleState& state,
+                       telemetry::LoopRecord& out) noexcept {
+    out.point_ns = point.now_ns;
+    out.point_own_ns = point.own_ns;
+    out.start_own_ns = start.own_ns;
+    out.missed_in_row = state.missed_in_row;
+    out.broken_in_row = state.broken_in_row;
+    out.stop_wanted = state.stop_wanted;
+    out.missed_in_row_exceeded = state.missed_in_row_exceeded;
+    out.phase_budget_exceeded = state.phase_budget_exceeded;
+    out.gap = state.gap;
+    out.hold = state.hold;
+    out.degrade = state.degrade;
+  }
+
   CycleBase& cycle_;
   telemetry::SnapshotRing& ring_;
   telemetry::Snapshot* slot_ = nullptr;

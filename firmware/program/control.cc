@@ -38,6 +38,24 @@ run_t Describe(const ControlOptions& options, const ControllerConfig& scenario,
   return run;
 }
 
+tape::Header TapeHeader(const ControlOptions& options, const ControllerConfig& scenario,
+                        const std::string& config_text) {
+  tape::Header header;
+  header.reed = REED_NUMBER;
+  header.commit = options.commit;
+  header.scenario = scenario.name;
+  header.arm = scenario.arm.name;
+  header.law = options.law.empty() ? scenario.control.law : "external";
+  header.law_library = options.law;
+  header.clock = options.clock == rt::ClockKind::kRealtime ? "realtime" : "lockstep";
+  header.rate_hz = scenario.timing.rate_hz;
+  header.joints = scenario.arm.dof();
+  header.parameters = scenario.arm.num_parameters();
+  header.enable = options.enable;
+  header.config = config_text;
+  return header;
+}
+
 void Complete(run_t& run, const RealTimeRun& done) {
   run.finished = static_cast<std::int8_t>(true);
   run.scheduler = done.report.scheduler;
@@ -95,8 +113,8 @@ LoopOptions PlanLoop(const ControllerConfig& scenario) {
   return LoopOptionsFrom(WithBudgets(scenario));
 }
 
-int ControlArm(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
-               bus::Transport& transport) {
+int ControlArm(const ControlOptions& options, const ControllerConfig& scenario,
+               const std::string& config_text, const LoopOptions& loop, bus::Transport& transport) {
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(scenario, transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);
@@ -104,7 +122,8 @@ int ControlArm(const ControlOptions& options, const ControllerConfig& scenario, 
   telemetry::SnapshotRing ring(realtime ? kRingCapacity : kLockstepRingCapacity);
   const telemetry::TimeBase time =
       realtime ? telemetry::TimeBase::Wall() : telemetry::TimeBase::Lockstep(scenario.timing.rate_hz);
-  telemetry::Recorder recorder({options.log, options.candump, InterfaceName(transport), options.lcm, ""},
+  telemetry::Recorder recorder({options.log, options.candump, InterfaceName(transport), options.lcm, "",
+                                options.tape, TapeHeader(options, scenario, config_text)},
                                time, ring, protect::Text);
   if (!recorder.publish_problem().empty())
     std::fprintf(stderr, "reed_firmware: %s\n", recorder.publish_problem().c_str());

@@ -17,6 +17,8 @@ struct ControlOptions {
   std::string law;      // LIB.so[:ARGUMENT]; empty: the scenario's
   std::string log;      // LCM event log
   std::string candump;  // CAN log
+  std::string tape;     // what a replay needs
+  std::string commit;   // for the tape: of the tree that the programs were built from, as far as it is known
   bool enable = false;  // the operator's wish to open the brakes
   bool quiet = false;
   bool lcm = true;
@@ -29,9 +31,9 @@ struct ControlOptions {
 /// The scenario's [timing] as the loop takes it; throws ConfigError when its frames do not fit the wire.
 LoopOptions PlanLoop(const ControllerConfig& scenario);
 
-/// Runs the scenario to its end and returns the exit status: 0, 1 when the arm stopped, 3 when the bus is
+/// config_text: the scenario as the tape keeps it. Runs the scenario to its end and returns the exit status: 0, 1 when the arm stopped, 3 when the bus is
 /// lost. Throws, before anything moves, what bad input throws.
-int ControlArm(const ControlOptions& options, const ControllerConfig& scenario, const LoopOptions& loop,
-               bus::Transport& transport);
+int ControlArm(const ControlOptions& options, const ControllerConfig& scenario,
+               const std::string& config_text, const LoopOptions& loop, bus::Transport& transport);
 
 }  // namespace reed

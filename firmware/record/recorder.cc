@@ -25,10 +25,11 @@ std::vector<std::string> RecorderReport::Problems() const {
   std::vector<std::string> lines;
   if (!log.problem.empty()) lines.push_back(log.Loss("messages"));
   if (!candump.problem.empty()) lines.push_back(candump.Loss("frames"));
+  if (!tape.problem.empty()) lines.push_back(tape.Loss("cycles"));
   if (!lcm.problem.empty()) lines.push_back(lcm.Loss("messages"));
   if (frames_omitted > 0) {
-    lines.push_back("CAN log: " + std::to_string(frames_omitted) + " frames omitted, more than " +
-                    std::to_string(kMaxFrames) + " in one cycle");
+    lines.push_back("CAN log: " + std::to_string(frames_omitted) +
+                    " frames omitted, more in one cycle than its record holds");
   }
   return lines;
 }
@@ -40,6 +41,7 @@ Recorder::Recorder(const RecorderOptions& options, const TimeBase& time, Snapsho
       event_text_(event_text),
       log_(options.log_path),
       candump_(options.candump_path, options.candump_interface),
+      tape_(options.tape_path, options.tape_header),
       publisher_(options.lcm_url, options.publish),
       cycle_limit_(kPublishPerSecond, kPublishBurst),
       event_limit_(kPublishPerSecond, kPublishBurst) {}
@@ -69,8 +71,11 @@ void Recorder::Stop() {
 RecorderReport Recorder::Close() {
   Stop();
   Flush();
+  writing_.store(&tape_.report().name, std::memory_order_relaxed);
+  tape_.End();
   report_.log = log_.report();
   report_.candump = candump_.report();
+  report_.tape = tape_.report();
   report_.lcm = publisher_.report();
   if (!publisher_.enabled()) report_.lcm.problem.clear();  // was said at start: publish_problem()
   return report_;
@@ -128,10 +133,11 @@ void Recorder::Record(const Snapshot& snapshot) {
   if (snapshot.cycle >= next_bus_cycle_) RecordBus(snapshot.bus, snapshot.cycle, utime);
 
   writing_.store(&candump_.report().name, std::memory_order_relaxed);
-  for (int i = 0; i < snapshot.num_frames; ++i) {
-    const RecordedFrame& recorded = snapshot.frames[static_cast<std::size_t>(i)];
+  snapshot.ForEachFrame([&](const RecordedFrame& recorded) {
     candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
-  }
+  });
+  writing_.store(&tape_.report().name, std::memory_order_relaxed);
+  tape_.Write(snapshot);
   report_.frames_omitted += snapshot.frames_omitted;
   ++report_.snapshots;
   last_bus_ = snapshot.bus;
@@ -164,6 +170,8 @@ void Recorder::Flush() {
   log_.Flush();
   writing_.store(&candump_.report().name, std::memory_order_relaxed);
   candump_.Flush();
+  writing_.store(&tape_.report().name, std::memory_order_relaxed);
+  tape_.Flush();
 }
 
 }  // namespace reed::telemetry

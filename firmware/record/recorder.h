@@ -1,5 +1,5 @@
-// The ordinary thread at the other end of the loop's ring: turns every snapshot into LCM messages and CAN log
-// lines, writes all of them to files, and publishes as many as a viewer can take. The loop never waits for it: a
+// The ordinary thread at the other end of the loop's ring: turns every snapshot into LCM messages, CAN log
+// lines and a record of the tape, writes all of them to files, and publishes as many as a viewer can take. The loop never waits for it: a
 // full disk or a network error is counted and reported at the end, and the ring is still emptied.
 //
 // Order: construct (opens everything), RecordRun, Start, then the real-time scope and the loop; Stop,
@@ -17,6 +17,7 @@
 #include "reed/firmware/record/time_base.h"
 #include "reed/firmware/record/timing_histograms.h"
 #include "reed/firmware/snapshot/snapshot_ring.h"
+#include "reed/firmware/tape/tape_writer.h"
 #include "reed/telemetry/event_log.h"
 #include "reed/telemetry/lcm_publisher.h"
 #include "reed/telemetry/rate_limit.h"
@@ -32,13 +33,15 @@ struct RecorderOptions {
   std::string candump_interface = "can";  // the interface's name in the CAN log
   bool publish = true;                    // over the network
   std::string lcm_url;                    // empty: LCM_DEFAULT_URL, or else the local default
+  std::string tape_path{};                // empty: none
+  tape::Header tape_header{};
 };
 
 struct RecorderReport {
   std::int64_t snapshots = 0;       // taken out of the ring
   std::int64_t thinned = 0;         // of these, not published over LCM to stay below 1000 per second
   std::int64_t frames_omitted = 0;  // frames that found no room in their snapshot
-  SinkReport log, candump, lcm;
+  SinkReport log, candump, tape, lcm;
 
   /// One line per thing that went wrong: what, how many, fix.
   std::vector<std::string> Problems() const;
@@ -86,6 +89,7 @@ class Recorder {
   EventText event_text_;
   EventLog log_;
   CandumpLog candump_;
+  tape::TapeWriter tape_;
   LcmPublisher publisher_;
   MessageEncoder encoder_;
   RateLimit cycle_limit_, event_limit_;

@@ -196,14 +196,15 @@ TEST_F(ArmBusTest, TheTapHoldsEveryFrameInTheOrderInWhichItPassed) {
   Eigen::Vector3d tau(1.0, -2.0, 3.0);
   bus_.SendCommand({DriveRequest::kEnable, tau}, 0, tap_);
   ASSERT_EQ(tap_.num_frames, kN + 3);
-  EXPECT_EQ(tap_.frames[0].direction, telemetry::Direction::kSent);
-  EXPECT_EQ(tap_.frames[0].frame.id, bus::layout::kSync.id);
-  for (std::size_t i = 1; i <= kN + 1; ++i)
-    EXPECT_EQ(tap_.frames[i].direction, telemetry::Direction::kReceived);
-  EXPECT_EQ(tap_.frames[kN + 2].frame.id, bus::layout::kCommand.id);
+  std::vector<telemetry::RecordedFrame> frames;
+  tap_.ForEachFrame([&](const telemetry::RecordedFrame& one) { frames.push_back(one); });
+  EXPECT_EQ(frames[0].direction, telemetry::Direction::kSent);
+  EXPECT_EQ(frames[0].frame.id, bus::layout::kSync.id);
+  for (std::size_t i = 1; i <= kN + 1; ++i) EXPECT_EQ(frames[i].direction, telemetry::Direction::kReceived);
+  EXPECT_EQ(frames[kN + 2].frame.id, bus::layout::kCommand.id);
 
   bus::Decoder decoder;
-  const bus::Decoded command = decoder.Decode(tap_.frames[kN + 2].frame);
+  const bus::Decoded command = decoder.Decode(frames[kN + 2].frame);
   EXPECT_EQ(command.command.request, bus::DriveRequest::kEnable);
   for (std::size_t i = 0; i < kN; ++i)
     EXPECT_EQ(command.command.torque_Nm[i], tau[static_cast<Eigen::Index>(i)]);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <vector>
+
 #include "reed/firmware/record/time_base.h"
 #include "reed/firmware/snapshot/snapshot.h"
 #include "reed/telemetry/rate_limit.h"
@@ -70,14 +72,36 @@ TEST(RateLimit, APauseBuysOneBurstAndNoMore) {
 TEST(Snapshot, AFullListKeepsTheFirstEntriesAndCountsTheFramesLeftOut) {
   Snapshot snapshot;
   for (int i = 0; i < kMaxEvents + 3; ++i) snapshot.AddEvent({0, 0, 10 + i, -1, 0.0});
-  for (std::uint32_t i = 0; i < kMaxFrames + 5; ++i) snapshot.AddFrame({i, 8, {}}, Direction::kSent, 0);
+  std::uint32_t frames = 0;
+  while (snapshot.frames_omitted < 5) snapshot.AddFrame({frames++, 16, {}}, Direction::kSent, 0);
   EXPECT_EQ(snapshot.num_events, kMaxEvents);
   EXPECT_EQ(snapshot.events[0].code, 10);
-  EXPECT_EQ(snapshot.num_frames, kMaxFrames);
-  EXPECT_EQ(snapshot.frames.back().frame.id, static_cast<std::uint32_t>(kMaxFrames - 1));
-  EXPECT_EQ(snapshot.frames_omitted, 5);
+  EXPECT_GE(snapshot.num_frames, 96) << "as many states as a cycle takes from the bus";
+  EXPECT_EQ(snapshot.num_frames + 5, static_cast<int>(frames));
+  std::uint32_t next = 0;
+  snapshot.ForEachFrame([&](const RecordedFrame& one) { EXPECT_EQ(one.frame.id, next++); });
+  EXPECT_EQ(next, frames - 5);
   snapshot.ClearLists();
   EXPECT_EQ(snapshot.num_events + snapshot.num_frames + snapshot.frames_omitted, 0);
+}
+
+TEST(Snapshot, AFrameComesBackWithItsOwnBytesAndNoOthers) {
+  Snapshot snapshot;
+  for (std::uint8_t size : {std::uint8_t{64}, std::uint8_t{0}, std::uint8_t{3}, std::uint8_t{48}}) {
+    bus::Frame frame{0x100u + size, size, {}};
+    frame.data.fill(static_cast<std::uint8_t>(0xA0 + size));
+    snapshot.AddFrame(frame, size == 3 ? Direction::kSent : Direction::kReceived, -size);
+  }
+  std::vector<RecordedFrame> found;
+  snapshot.ForEachFrame([&](const RecordedFrame& one) { found.push_back(one); });
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[1].frame.data, bus::Frame{}.data);
+  EXPECT_EQ(found[2].direction, Direction::kSent);
+  EXPECT_EQ(found[2].offset_ns, -3);
+  EXPECT_EQ(found[2].frame.id, 0x103U);
+  EXPECT_EQ(found[2].frame.data[2], 0xA3);
+  EXPECT_EQ(found[2].frame.data[3], 0) << "behind its size lies nothing of an older frame";
+  EXPECT_EQ(found[3].frame.data[47], 0xD0);
 }
 
 }  // namespace

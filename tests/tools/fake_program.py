@@ -17,7 +17,7 @@ def main() -> int:
     name = {"reed_plant_sim": "plant", "reed_firmware": "firmware"}.get(Path(sys.argv[0]).name, "one_process")
     behaviour = os.environ.get(f"REED_FAKE_{name.upper()}", "ok")
     parser = argparse.ArgumentParser()
-    for option in ("--config", "--bus", "--clock", "--log", "--plant-log", "--candump"):
+    for option in ("--config", "--bus", "--clock", "--log", "--plant-log", "--candump", "--tape", "--tape-commit"):
         parser.add_argument(option)
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")

@@ -18,6 +18,7 @@ ARROWS = {
     "figures": {"record", "robots", "show"},
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},
+    "replay": {"law", "record", "run", "show"},
     "export": {"record", "robots", "run"},
     "arms": {"record", "robots", "show"},
     "scenarios": {"robots", "run"},

@@ -27,7 +27,7 @@ int Run(OneProcessOptions options) {
   PlantSide side(LoadPlantConfig(options.config, options.load), wire, publisher);
   options.control.for_others = &side.usage();
 
-  const int controller = ControlArm(options.control, scenario, loop, wire.controller);
+  const int controller = ControlArm(options.control, scenario, TextOf(scenario), loop, wire.controller);
   side.Rethrow();
   const int plant = plant::Conclude(side.endpoint(), publisher, quiet);
   return plant != 0 ? plant : controller;

@@ -21,6 +21,8 @@ OneProcessOptions ParseOneProcessOptions(int argc, char** argv) {
   app.add_option("--log", options.control.log, "LCM event log of the controller");
   app.add_option("--plant-log", options.plant_log, "LCM event log of the arm");
   app.add_option("--candump", options.control.candump, "CAN log in candump -L format");
+  app.add_option("--tape", options.control.tape, "all that a replay of the controller needs, cycle by cycle");
+  app.add_option("--tape-commit", options.control.commit, "the programs' commit, as the tape names it");
   app.add_flag("--quiet", options.control.quiet, "print errors only");
   app.add_flag("!--no-lcm", options.control.lcm, "do not publish on the LCM network");
   try {

@@ -16,7 +16,8 @@ ORIGIN = "run.json"                          # command, versions, machine
 PARTS = ("firmware.lcmlog", "plant.lcmlog")  # until they are merged
 SUMMARY = "summary.json"
 SUMS = "SHA256SUMS"                          # in the form that `sha256sum -c` reads
-RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump")
+TAPE = "tape.reed"                           # record/tape.py
+RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump", TAPE)
 FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt", "one_process.txt")
 
 

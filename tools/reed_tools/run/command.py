@@ -72,12 +72,13 @@ def one_run(arguments) -> tuple[Path, int]:
                                    "a run already; remove it or choose another folder")
             for name in (checked.name, *hil.HALVES.values()):
                 shutil.copy(checked.with_name(name), folder)
-        origin.write(folder, arguments)
+        known = origin.write(folder, arguments)
         say_where(folder)
         duration_s = effective["scenario"]["duration_s"]
         print(plain(f"{effective['scenario']['name']} on {effective['arm']['name']}: {duration_s:g} s at "
                     f"{effective['timing']['rate_hz']:g} Hz, {bus}, {clock} clock"), flush=True)
         plan = plans.make(effective, folder / "effective.toml", bus, clock, folder, law=law.spec, environment=law.environment,
+                          commit=known["versions"]["commit"] or "",
                           host_pause=clock == "realtime" and bus_choice.simulated(bus))
         with live_page.beside() if arguments.live else contextlib.nullcontext():
             with progress.shown(plain(effective["scenario"]["name"]), duration_s) as on_progress:

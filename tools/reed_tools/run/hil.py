@@ -37,7 +37,8 @@ class Plan:
     out: str
     most_cycles: int  # more than the scenario and its start can need
     lcm: bool = True  # publish on the LCM network too
-    candump: bool = True  # keep every frame
+    candump: bool = True  # keep every frame, and the tape
+    commit: str = ""  # of the programs, for the tape
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
     entries: list[str] = field(default_factory=list)  # KEY=VALUE, over what the configuration says
@@ -96,7 +97,8 @@ def on_bus(name: str, plan: Plan) -> list[str]:
 
 def controls(plan: Plan) -> list[str]:
     """Of the program that controls, behind what all have."""
-    frames = ["--candump", str(Path(plan.out) / "bus.candump")] if plan.candump else []
+    frames = ["--candump", str(Path(plan.out) / "bus.candump"), "--tape", str(Path(plan.out) / "tape.reed"),
+              *(["--tape-commit", plan.commit] if plan.commit else [])] if plan.candump else []
     return ["--enable", *frames, *(["--law", plan.law] if plan.law else []), *(["--host-pause"] if plan.host_pause else [])]
 
 

@@ -29,6 +29,8 @@ def located(name: str) -> str:
     return f"{Path(file).resolve()}{colon}{argument}" if Path(file).is_file() else name
 
 
-def write(folder: Path, arguments) -> None:
+def write(folder: Path, arguments) -> dict:
+    """What it wrote."""
     origin = {"command": command(arguments), "versions": versions.all_of_them(), "machine": machine.description()}
     write_text(folder / run_folder.ORIGIN, json.dumps(origin, indent=2) + "\n")
+    return origin

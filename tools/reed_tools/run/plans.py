@@ -16,7 +16,7 @@ def names(bus: str) -> dict[str, str]:
 
 
 def make(effective: dict, config: Path | str, bus: str, clock: str, folder: Path, **options) -> hil.Plan:
-    """`effective`: the content of the file `config` with its `entries`. `options`: lcm, candump,
+    """`effective`: the content of the file `config` with its `entries`. `options`: lcm, candump, commit,
     entries, law, environment."""
     most_cycles = int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
     programs = {part: str(program(name)) for part, name in names(bus).items()}
