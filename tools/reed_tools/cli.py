@@ -23,6 +23,7 @@ COMMANDS = {
     "decode": ("export.decode_command", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),
     "arm": ("arms.command", "arm files from and to URDF, judged, drawn"),
+    "scenario": ("scenarios.command", "a new scenario for an arm: a press on a wall, or free motion"),
     "identify": ("identify.command", "inertial parameters and friction from recorded runs, or the motion to record"),
     "bode": ("bode.command", "gain, phase and margins of one joint's loop, measured with a multisine"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),

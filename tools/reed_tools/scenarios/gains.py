@@ -14,7 +14,7 @@ from reed_tools.robots.regressor import inverse_dynamics
 from reed_tools.run import scenario
 
 BANDWIDTH_1ps = 60.0  # K_d = that times the inertia that a joint moves
-PER_ROTOR_1ps = 150.0  # and no more than this times the rotor's: one cycle of delay
+PER_ROTOR_1ps = 114.0  # and no more than this times the rotor's: half of what the chatter rule allows at 1 kHz
 LAMBDA_1ps = 15.0
 LOWER, ROUNDS = 0.8, 60
 
@@ -34,14 +34,15 @@ def gravity_torque(arm: NominalArm, q: np.ndarray) -> np.ndarray:
 
 
 def inertia(arm: NominalArm, q: np.ndarray) -> np.ndarray:
-    """Diagonal of M + J_m of the nominal arm in one pose."""
-    poses = np.tile(q, (arm.dof, 1))
-    rest = 0 * poses
-    return np.diag((inverse_dynamics(arm.chain, poses, rest, np.eye(arm.dof)) - inverse_dynamics(arm.chain, poses, rest, rest)) @ arm.inertial) + arm.rotor_inertia
+    """M + J_m of the nominal arm, [n, dof, dof]."""
+    rest = 0 * q
+    weight = inverse_dynamics(arm.chain, q, rest, rest) @ arm.inertial
+    columns = [inverse_dynamics(arm.chain, q, rest, rest + unit) @ arm.inertial - weight for unit in np.eye(arm.dof)]
+    return np.stack(columns, axis=2) + np.diag(arm.rotor_inertia)
 
 
 def by_rule(arm: NominalArm, q: np.ndarray) -> Gains:
-    return Gains(np.minimum(BANDWIDTH_1ps * inertia(arm, q), PER_ROTOR_1ps * np.maximum(arm.rotor_inertia, 1e-3)), LAMBDA_1ps)
+    return Gains(np.minimum(BANDWIDTH_1ps * np.diag(inertia(arm, q[None])[0]), PER_ROTOR_1ps * np.maximum(arm.rotor_inertia, 1e-3)), LAMBDA_1ps)
 
 
 def accepted(gains: Gains, text_of) -> str:
