@@ -11,7 +11,7 @@ import pytest
 from reed_tools.cli import COMMANDS
 from reed_tools.paths import PYTHON, ROOT
 
-BUS = "udp:239.74.163.2:43979"  # a port of its own: tests run side by side
+BUS = "udp:239.74.163.27:43981"  # a port of its own: tests run side by side
 LIGHT = {"numpy", "rich"}  # packages that a start may import; the others take longer than everything else together
 START = """
 import sys

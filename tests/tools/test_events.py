@@ -39,7 +39,7 @@ def tripped(tmp_path, monkeypatch):
                                                    "versions": {"reed": "0.1.0", "commit": "abc", "build": "def"}}))
 
     class Arguments:
-        run_dir = tmp_path
+        run_dir, json = tmp_path, False
 
     assert command.run(Arguments) == 1
     return tmp_path
@@ -75,7 +75,7 @@ def test_a_damaged_origin_is_named(tripped):
     (tripped / "run.json").write_text("{")
 
     class Arguments:
-        run_dir = tripped
+        run_dir, json = tripped, False
 
     with pytest.raises(Exception, match="run.json: Expecting property name"):
         command.run(Arguments)

@@ -47,7 +47,7 @@ def no_pictures(monkeypatch):
 def report(folder):
     """The exit status, or the error, of `tools/reed report`."""
     class Arguments:
-        run_dir = folder
+        run_dir, json = folder, False
 
     return command.run(Arguments)
 

@@ -14,7 +14,7 @@ ARROWS = {
     "show": set(),
     "law": set(),
     "record": set(),
-    "robots": {"show"},
+    "robots": {"record", "show"},
     "figures": {"record", "robots", "show"},
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},

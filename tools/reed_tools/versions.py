@@ -36,5 +36,9 @@ def build(programs: Iterable[str] = PROGRAMS) -> str:
     return total.hexdigest()[:12]
 
 
+def of_tools() -> dict:
+    return {"reed": reed(), "commit": commit()}
+
+
 def all_of_them() -> dict:
-    return {"reed": reed(), "commit": commit(), "build": build()}
+    return of_tools() | {"build": build()}

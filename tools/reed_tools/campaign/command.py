@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import shutil
 import tempfile
 from pathlib import Path
@@ -154,6 +155,15 @@ def arm_of(campaign: Campaign) -> dict:
         return scenario.write_effective(campaign.scenario, None, campaign.fixed, Path(scratch, "effective.toml"))["arm"]
 
 
+def command_of(folder: Path) -> str:
+    """The line that runs the folder's campaign again."""
+    options = read_options(folder / OPTIONS)
+    words = ["tools/reed", "campaign", str(folder / "campaign.toml")]
+    for key in ("seed", *SELECTION):
+        words += [f"--{'from' if key == 'first' else key}", str(options[key])] if options[key] is not None else []
+    return shlex.join([*words, *(word for entry in options["set"] for word in ("--set", entry))])
+
+
 def conclude(folder: Path, campaign: Campaign, wanted: int, records: list, repeats: list, interrupted: bool) -> int:
     if not records:
         raise UsageError("interrupted before the first draw was done") if interrupted else RunError("no draw came to its end")
@@ -164,7 +174,7 @@ def conclude(folder: Path, campaign: Campaign, wanted: int, records: list, repea
     results.write(folder, summary)
     junit.write(folder, campaign, records, verdict)
     pictures = plots.draw_all(folder, campaign, records, arm_of(campaign))
-    path = page.write(folder, summary, (folder / "campaign.toml").read_text(), pictures)
+    path = page.write(folder, summary, (folder / "campaign.toml").read_text(), pictures, command_of(folder))
     table.show(summary)
     print(f"report  {path}")
     died = [record for record in records if record.status == "died"]

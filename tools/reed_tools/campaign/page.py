@@ -3,7 +3,9 @@
 import html
 from pathlib import Path
 
-from reed_tools.show.html_parts import STYLE, mark, picture, table
+from reed_tools import versions
+from reed_tools.record.whole_file import write_text
+from reed_tools.show.html_parts import again, mark, page, picture, table
 from reed_tools.show.tables import number
 
 FILE = "campaign.html"
@@ -37,16 +39,20 @@ def worst(summary: dict) -> str:
             + "\n</tbody></table>")
 
 
-def write(folder: Path, summary: dict, definition_text: str, pictures: list[Path]) -> Path:
+RAW = ("summary.json", "draws.jsonl", "options.json", "campaign.toml", "junit.xml")
+
+
+def write(folder: Path, summary: dict, definition_text: str, pictures: list[Path], command: str) -> Path:
+    """`command`: the line that repeats the campaign."""
     title = html.escape(f"campaign {summary['campaign']}")
     head = (f'<h1>{title}: <span class="{summary["verdict"]}">{summary["verdict"]}</span></h1>'
             f"<p>{summary['finished']} of {summary['draws']} draws of {html.escape(summary['scenario'])}, campaign seed {summary['seed']}, "
             f"lockstep<br>programs {html.escape(', '.join(summary['builds']))}, definition {summary['definition'][:16]}</p>")
     shown = "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)
     sections = [("Limits", limits(summary)), ("Figures", figures(summary)), ("Distributions", shown),
-                ("Worst draws, ready to run again", worst(summary)), ("Definition", f"<pre>{html.escape(definition_text)}</pre>")]
+                ("Worst draws, ready to run again", worst(summary)), ("The same campaign again", again(command, [name for name in RAW if (folder / name).is_file()], versions.all_of_them())),
+                ("Definition", f"<pre>{html.escape(definition_text)}</pre>")]
     body = "\n".join(f"<h2>{name}</h2>\n{content}" for name, content in sections)
     path = folder / FILE
-    path.write_text(f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: {title}</title>'
-                    f"<style>{STYLE}</style></head><body>\n{head}\n{body}\n</body></html>\n")
+    write_text(path, page(title, f"{head}\n{body}"))
     return path

@@ -41,7 +41,7 @@ def run(arguments) -> int:
                           "differences": [{"figure": entry.figure, "values": entry.values} for entry in found]}, allow_nan=False))
         return 0
     show(names, found)
-    print(f"page  {write_page(arguments.out, names, found, summaries, signals)}")
+    print(f"page  {write_page(arguments, names, found, summaries, signals)}")
     return 0
 
 
@@ -86,14 +86,14 @@ def show(names: list[str], found: list[figures.Difference]) -> None:
         out.print(f"{len(found) - MOST_ROWS} more are on the page")
 
 
-def write_page(out: Path | None, names, found, summaries, signals) -> Path:
+def write_page(arguments, names, found, summaries, signals) -> Path:
     from reed_tools.compare import page
 
-    folder = folders.fresh(out, "compare", OWN_FILES, "a comparison already; remove it or choose another folder")
+    folder = folders.fresh(arguments.out, "compare", OWN_FILES, "a comparison already; remove it or choose another folder")
     drawn = [(name, one) for name, one in zip(names, signals) if one is not None]
     curves = None
     if drawn:
         from reed_tools.compare.curves import draw
 
         curves = draw(folder / CURVES, drawn)
-    return page.write(folder / PAGE, names, found, list(summaries), curves)
+    return page.write(folder / PAGE, names, found, list(summaries), curves, arguments.folders)

@@ -21,7 +21,9 @@ from google.protobuf.timestamp_pb2 import Timestamp
 
 from reed_tools.record.signals import FAULT
 from reed_tools.record.telemetry_log import Recording
-from reed_tools.robots.arm_lines import FORCE_mPN, LEAST_FORCE_N, aim, centre_line, joint_transforms, wall_plate
+from reed_tools.robots import arm_frames
+from reed_tools.robots.arm_frames import rows_at
+from reed_tools.robots.arm_lines import FORCE_mPN, LEAST_FORCE_N, aim, joint_transforms, wall_plate
 
 BASE = "base"
 ORANGE, GREY, BLUE, RED = (0.84, 0.37, 0.0, 1.0), (0.5, 0.5, 0.5, 0.5), (0.34, 0.71, 0.91, 0.4), (0.8, 0.1, 0.1, 1.0)
@@ -39,11 +41,6 @@ class Made:
 
 def stamp(time_ns: int) -> Timestamp:
     return Timestamp(seconds=int(time_ns) // 10**9, nanos=int(time_ns) % 10**9)
-
-
-def rows_at(table: dict, cycles: np.ndarray) -> np.ndarray:
-    """For each cycle the row of the newest message up to it; the first one where there is none before."""
-    return np.clip(np.searchsorted(table["cycle"], cycles, side="right") - 1, 0, None)
 
 
 def frames(recording: Recording, effective: dict) -> Made:
@@ -76,24 +73,21 @@ def quaternion(q) -> Quaternion:
 
 def pictures(recording: Recording, effective: dict) -> Made:
     """The arm as it bends, the desired arm, the true wall and the force on the tip, at the times of REED_SHAPE."""
-    shape, control, plant = (recording.tables[name] for name in ("REED_SHAPE", "REED_CONTROL", "REED_PLANT"))
-    if not (recording.has("REED_SHAPE") and recording.has("REED_CONTROL") and recording.has("REED_PLANT")):
+    arm = arm_frames.of(recording, effective["arm"])
+    if arm is None:
         return Made(SceneUpdate, np.array([], dtype=np.int64), lambda n: None)
-    times_ns = shape["utime"].astype(np.int64) * 1000
-    points = np.stack([shape["x"], shape["y"], shape["z"]], axis=2).astype(float)
-    desired = centre_line(effective["arm"], control["theta_d"][rows_at(control, shape["cycle"])])
-    force = plant["contact_force"][rows_at(plant, shape["cycle"])]
+    times_ns = arm.utime * 1000
     plate = wall_plate(effective)
 
     def message(n: int) -> SceneUpdate:
         time = stamp(times_ns[n])
-        entities = [entity(time, "arm", lines=[line(points[n], ARM_m, ORANGE)]),
-                    entity(time, "desired arm", lines=[line(desired[n], GHOST_m, GREY)])]
+        entities = [entity(time, "arm", lines=[line(arm.bent[n], ARM_m, ORANGE)]),
+                    entity(time, "desired arm", lines=[line(arm.desired[n], GHOST_m, GREY)])]
         if plate:
             cube = CubePrimitive(pose=pose(plate.centre, plate.q), size=Vector3(x=plate.size[0], y=plate.size[1], z=plate.size[2]),
                                  color=colour(BLUE))
             entities.append(entity(time, "wall", cubes=[cube]))
-        entities.append(entity(time, "force on the tip", arrows=arrows(points[n][-1], force[n])))
+        entities.append(entity(time, "force on the tip", arrows=arrows(arm.bent[n][-1], arm.force[n])))
         return SceneUpdate(entities=entities)
 
     return Made(SceneUpdate, times_ns, message)

@@ -13,11 +13,13 @@ def evaluate(folder: Path) -> tuple[dict, str | None]:
     figures, signals = summary.build(folder, recording)
     try:
         summary.write(folder, figures)
-        from reed_tools.figures import plots  # matplotlib takes half a second: not before the numbers are safe
+        from reed_tools.figures import animation, curves, plots  # matplotlib takes half a second: not before the numbers are safe
 
         effective = configuration.load(folder / run_folder.CONFIGURATION)
         pictures = plots.draw_all(folder, recording, signals, effective, figures)
-        report_page.write(folder, figures, pictures)
+        lively = {"arm": animation.data(recording, signals, effective),
+                  "curves": curves.data(signals, recording, effective, figures["reason"], plots.COLOURS)}
+        report_page.write(folder, figures, pictures, lively)
     except OSError as error:
         return figures, f"{error.filename}: {(error.strerror or str(error)).lower()}; the records are kept, `tools/reed report {folder}` makes the rest"
     return figures, None

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools.figures import lyapunov, lyapunov_plot, marks
+from reed_tools.figures import arm_plot, lyapunov, lyapunov_plot, marks
 from reed_tools.figures.parameter_units import unit_of
 from reed_tools.record.signals import Signals
 from reed_tools.record.telemetry_log import Recording
@@ -12,6 +12,7 @@ from reed_tools.record.whole_file import replacing
 from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, label_left, legend_right, panels, plt, set_margins, ticker
 
 TIME = "time since the arm became active [s]"
+NO_TIME_AXIS = ("arm", "timing")
 
 
 def draw_all(folder: Path, recording: Recording, signals: Signals | None, effective: dict, summary: dict) -> list[Path]:
@@ -20,7 +21,7 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
     with plt.rc_context(STYLE):
         figures = []
         if signals is not None:
-            figures = [("joint_error", joint_error(signals)), ("tip_error", tip_error(signals)),
+            figures = [("arm", arm_plot.draw(recording, signals, effective)), ("joint_error", joint_error(signals)), ("tip_error", tip_error(signals)),
                        ("force", force(signals) if signals.has_wall else None),
                        ("torque", torque(signals, effective["arm"]["torque_limit"])),
                        ("parameters", parameters(signals, effective["arm"])),
@@ -30,7 +31,7 @@ def draw_all(folder: Path, recording: Recording, signals: Signals | None, effect
         for name, figure in figures:
             if figure is None:
                 continue
-            if name != "timing":
+            if name not in NO_TIME_AXIS:
                 marks.draw(figure, signals, summary["reason"])
             with replacing(folder / f"{name}.png") as file:
                 figure.savefig(file, format="png")

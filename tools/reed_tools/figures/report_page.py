@@ -1,4 +1,4 @@
-"""report.html: one file with everything in it, readable without a network and in print."""
+"""report.html: one file with everything in it: the moving arm, curves to zoom, tables; readable without a network and in print."""
 
 import html
 import re
@@ -8,10 +8,12 @@ from reed_tools.figures.parameter_units import unit_of
 from reed_tools.figures.result_table import lines
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.whole_file import write_text
-from reed_tools.show.html_parts import STYLE, Markup, mark, picture, table
+from reed_tools.show import interactive
+from reed_tools.show.html_parts import Markup, again, mark, page, picture, table
 from reed_tools.show.tables import number
 
 CAPTIONS = {
+    "arm": "The arm's true shape from the plant's record, with the desired arm (dotted), the true wall and the path of the tip.",
     "joint_error": "Planned reference minus motor-side angle; triangles: the joint turns round and its Coulomb friction changes sign. While "
                    "the arm presses, the force loop moves it off the plan along the force direction D on purpose: that part is in the "
                    "upper curves and no failure. The lower curves are without it, and the checks apply to them.",
@@ -23,6 +25,7 @@ CAPTIONS = {
                 "contain no Coulomb friction and no bending: V converges to where they balance.",
     "timing": "How long each phase of a cycle took.",
 }
+RAW = ("summary.json", run_folder.TELEMETRY, "bus.candump", run_folder.CONFIGURATION, "controller.toml", "plant.toml", run_folder.SUMS)
 FREE_JOINT_ERROR = "Planned reference minus motor-side angle; triangles: the joint turns round and its Coulomb friction changes sign."
 MOST_EVENTS = 60
 SAID_IN_TEXT = ("mode_change", "force_source_change", "drive_state", "controller_present", "controller_restarted", "brakes_released",
@@ -85,40 +88,50 @@ def scalars(summary: dict) -> str:
         for name, figures in summary["scalars"].items()], text=(5, 6))
 
 
-def origin(summary: dict) -> str:
-    """How to repeat the run, and with what."""
-    versions, machine = summary["versions"], summary["machine"]
-    what = [f"Reed {versions['reed']}" if versions["reed"] else "", f"commit {versions['commit']}" if versions["commit"] else "",
-            f"programs {versions['build']}" if versions["build"] else "",
-            f"{machine['cpu']}, {machine['cores']} cores, kernel {machine['kernel']}" if machine.get("cpu") else ""]
-    command = f"<pre>{html.escape(summary['command'])}</pre>" if summary["command"] else ""
-    return command + f"<p>{html.escape('; '.join(word for word in what if word))}</p>"
-
-
-def sections(summary: dict, effective: dict, effective_text: str, pictures: list[Path]) -> list[tuple[str, str]]:
+def sections(summary: dict, folder: Path, effective: dict, effective_text: str, pictures: list[Path], lively: dict) -> list[tuple[str, str]]:
     captions = CAPTIONS if effective.get("wall") and summary["windows"] and any(w["force_rms_N"] is not None for w in summary["windows"]) \
         else CAPTIONS | {"joint_error": FREE_JOINT_ERROR}
-    shown = "\n".join(picture(path, captions[path.stem]) for path in pictures)
+    still = {path.stem: picture(path, captions[path.stem]) for path in pictures}
     loop = "".join(f"<p>{html.escape(line)}</p>" for line in lines(summary))
-    return [("Checks", checks(summary)), ("Error by second", windows(summary)), ("What happened", happened(summary)), ("Pictures", shown),
+    raw = [name for name in RAW if (folder / name).is_file()]
+    return [("The arm", (interactive.ARM if lively.get("arm") else "") + unless(lively.get("arm"), still.pop("arm", "<p>Its shape was not recorded.</p>"))),
+            ("Checks", checks(summary)), ("Error by second", windows(summary)), ("What happened", happened(summary)),
+            ("Curves", curves(lively.get("curves"), captions) + unless(lively.get("curves"), "\n".join(still.values()))),
             ("Parameters", parameters(summary, effective["arm"])), ("Recorded scalars", scalars(summary)), ("Loop, bus and clock", loop + timing(summary)),
-            ("The same run again", origin(summary)),
-            ("Effective configuration", f"<p>SHA-256 {summary['config_sha256']}</p><pre>{html.escape(effective_text)}</pre>")]
+            ("The same run again", again(summary["command"], raw, summary["versions"], summary["machine"])),
+            ("Effective configuration", f"<p>SHA-256 {summary['config_sha256']}</p><pre class=long>{html.escape(effective_text)}</pre>")]
+
+
+def curves(drawn: dict | None, captions: dict[str, str]) -> str:
+    """Each diagram with the caption of its still picture, once."""
+    if not drawn:
+        return ""
+    unsaid = dict(captions)
+    for panel in drawn["panels"]:
+        panel["note"] = unsaid.pop(panel["still"], "")
+    thinned = f" Every {drawn['every']}th cycle is drawn; telemetry.lcmlog has all." if drawn["every"] > 1 else ""
+    return (f'<p class="hint">Drag in a diagram to zoom all of them, double-click to see the whole run, click to show the arm at that time. The '
+            f"values under the cursor are in the legends; a click there hides a curve.{thinned} In print these are still pictures.</p>{interactive.CURVES}")
+
+
+def unless(lively: dict | None, still: str) -> str:
+    """Still pictures are for print, and for a browser that runs no scripts, where the page has something that moves instead."""
+    return f'<div class="still">{still}</div>' if lively else still
 
 
 def because(summary: dict) -> str:
     return f'<p class="fail"><b>{html.escape(summary["cause"])}</b></p>' if summary["cause"] else ""
 
 
-def write(folder: Path, summary: dict, pictures: list[Path]) -> Path:
+def write(folder: Path, summary: dict, pictures: list[Path], lively: dict) -> Path:
+    """`lively`: the numbers of animation.py ("arm") and curves.py ("curves"), where the record allows them."""
     source = folder / run_folder.CONFIGURATION
     title = html.escape(f"{summary['scenario']} on {summary['arm']}")
     head = (f'<h1>{title}: <span class="{summary["verdict"]}">{summary["verdict"].upper()}</span></h1>{because(summary)}'
             f"<p>law {html.escape(summary['law'])}, {summary['dof']} joints, seed {summary['seed']}, "
             f"{summary['clock']} clock at {summary['rate_hz']:g} Hz<br>digest {summary['digest']}</p>")
-    body = "\n".join(f"<h2>{name}</h2>\n{content}"
-                     for name, content in sections(summary, configuration.load(source), source.read_text(encoding="utf-8"), pictures))
+    listed = sections(summary, folder, configuration.load(source), source.read_text(encoding="utf-8"), pictures, lively)
+    body = "\n".join(f"<h2>{name}</h2>\n{content}" for name, content in listed)
     path = folder / "report.html"
-    write_text(path, f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: {title}</title>'
-                     f"<style>{STYLE}</style></head><body>\n{head}\n{body}\n</body></html>\n")
+    write_text(path, page(title, f"{head}\n{body}", interactive.head(), interactive.scripts(lively)))
     return path

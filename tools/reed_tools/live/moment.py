@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from reed_tools.live.batch import CLOCK, Batch
+from reed_tools.robots.arm_frames import points
 
 MOST_EVENTS = 12
 
@@ -49,8 +50,7 @@ class Moment:
         self.theta_d, self.dof = row["theta_d"], int(row["dof"])
 
     def shape(self, row: dict) -> None:
-        self.bent = np.stack([row["x"], row["y"], row["z"]], axis=1)
-        self.rigid = np.stack([row["rigid_x"], row["rigid_y"], row["rigid_z"]], axis=1)
+        self.bent, self.rigid = points(row, ""), points(row, "rigid_")
 
     def plant(self, row: dict) -> None:
         self.contact_force = row["contact_force"]

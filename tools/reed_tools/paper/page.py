@@ -3,10 +3,12 @@
 import html
 from pathlib import Path
 
+from reed_tools import versions
 from reed_tools.paper import captions, pictures
 from reed_tools.paper.phases import force_by_second, joint_by_second, phases, times
 from reed_tools.paper.runs import Result
-from reed_tools.show.html_parts import STYLE, Markup, table
+from reed_tools.record.whole_file import write_text
+from reed_tools.show.html_parts import Markup, again, page as whole_page, table
 from reed_tools.show.tables import number
 
 PAPER, SEPARATED = "paper_corrected", "separated"
@@ -131,6 +133,7 @@ def write(folder: Path, results: list[Result]) -> Path:
         parts.append(f'<section><h2>Stability bookkeeping, {name}</h2><figure><img alt="V" src="{pictures.inline(data)}"></figure>'
                      f'<p class="note">{html.escape(captions.BOOKKEEPING[name.split()[0]])}</p></section>')
     path = folder / "paper.html"
-    path.write_text('<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Reed: the paper\'s experiments</title>'
-                    f"<style>{STYLE}{EXTRA_STYLE}</style></head><body>\n" + "\n".join(parts) + "\n</body></html>\n")
+    drawn = sorted(file.name for file in folder.glob("*.png"))
+    parts.append("<h2>The same page again</h2>" + again("tools/reed paper", drawn, versions.all_of_them()))
+    write_text(path, whole_page("the paper's experiments", "\n".join(parts), f"<style>{EXTRA_STYLE}</style>"))
     return path

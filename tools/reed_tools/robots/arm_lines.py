@@ -9,6 +9,7 @@ from reed_tools.robots.rigid_arm import poses
 FORCE_mPN = 0.01      # length of a force's arrow
 LEAST_FORCE_N = 0.05  # below it there is no arrow
 PLATE_m = (0.4, 0.4, 0.002)
+ARM_RGB, GHOST_RGB, WALL_RGB, FORCE_RGB, TRACE_RGB = (214, 94, 0), (150, 150, 150), (86, 180, 233), (200, 0, 40), (0, 114, 178)
 
 
 def centre_line(arm: dict, q: np.ndarray) -> np.ndarray:
@@ -47,6 +48,26 @@ def wall_plate(effective: dict) -> Plate | None:
     normal /= np.linalg.norm(normal)
     surface = np.array(wall["point_m"], dtype=float) + wall["offset_m"] * normal
     return Plate(surface - PLATE_m[2] / 2 * normal, turn_to(normal, (0.0, 0.0, 1.0)))
+
+
+def drawn(rigid: np.ndarray, bent: np.ndarray, scale: float) -> np.ndarray:
+    """Points of an arm whose bending is exaggerated; 1 is the true shape."""
+    return rigid + scale * (bent - rigid)
+
+
+def arrow(tip: np.ndarray, force: np.ndarray) -> np.ndarray | None:
+    """From where to where a force on the tip is drawn; None for one too small to be seen."""
+    return np.array([tip, tip + FORCE_mPN * force]) if np.linalg.norm(force) >= LEAST_FORCE_N else None
+
+
+def corners(plate: Plate) -> np.ndarray:
+    """Of the plate's upper face, [4, 3], one behind the other."""
+    w, x, y, z = plate.q
+    R = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                  [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                  [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    half = np.array(plate.size) / 2
+    return plate.centre + np.array([(i, j, 1) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) * half @ R.T
 
 
 def aim(direction) -> tuple:
