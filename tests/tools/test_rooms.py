@@ -19,6 +19,7 @@ ARROWS = {
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},
     "replay": {"law", "record", "run", "show"},
+    "gate": {"record", "replay", "show"},
     "export": {"record", "robots", "run"},
     "arms": {"record", "robots", "show"},
     "scenarios": {"robots", "run"},

@@ -19,6 +19,7 @@ COMMANDS = {
     "compare": ("compare.command", "two or more runs, or campaigns, beside each other: differences first"),
     "live": ("live.command", "a page that shows a run as it happens, or a finished one"),
     "replay": ("replay.command", "a run through the controller's own code again: the same to the bit, or the first difference"),
+    "gate": ("gate.command", "did the controller's behaviour change between two commits, and does one of them say so?"),
     "export": ("export.command", "a run as MCAP, CSV, Parquet, or its bus as ASC, BLF"),
     "decode": ("export.decode_command", "frames of the bus in engineering units, live or recorded"),
     "inspect": ("robots.command", "the model and the law as numbers, by the code the firmware runs"),

@@ -1,0 +1,80 @@
+"""What both versions are shown: config/gate/corpus.toml, and whether its tapes hold all that it promises."""
+
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from reed_tools.errors import UsageError
+from reed_tools.paths import ROOT, SCENARIOS
+from reed_tools.record.tape import Tape
+
+FILE = ROOT / "config" / "gate" / "corpus.toml"
+
+
+@dataclass(frozen=True)
+class Entry:
+    name: str
+    scenario: str
+    arm: str | None = None
+    entries: tuple[str, ...] = ()
+
+    def options(self) -> list[str]:
+        """Of a program that reads scenarios."""
+        arm = ["--arm", self.arm] if self.arm else []
+        return ["--config", self.scenario, *arm, *(word for entry in self.entries for word in ("--set", entry))]
+
+
+@dataclass(frozen=True)
+class Corpus:
+    tapes: list[Entry]
+    coverage: dict[str, list]
+    longest_s: float  # of a scenario
+
+
+def load(path: Path = FILE) -> Corpus:
+    try:
+        found = tomllib.loads(path.read_text(encoding="utf-8"))
+        tapes = [Entry(one["name"], located(path, one["scenario"]), one.get("arm") and located(path, one["arm"]), tuple(one.get("set", ())))
+                 for one in found["tapes"]]
+        return Corpus(tapes, found["coverage"], float(found["scenarios"]["longest_s"]))
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise UsageError(f"{path}: {error}; it lists [[tapes]] with name and scenario, [coverage] and [scenarios]") from None
+
+
+def located(path: Path, name: str) -> str:
+    """A file beside the list, or a name that each version looks up in its own config."""
+    return str(path.with_name(name)) if name.endswith(".toml") else name
+
+
+def scenarios(longest_s: float) -> list[Entry]:
+    """Those of config/scenarios, long ones cut."""
+    found = []
+    for path in sorted(SCENARIOS.glob("*.toml")):
+        duration_s = tomllib.loads(path.read_text(encoding="utf-8")).get("scenario", {}).get("duration_s", longest_s)
+        found.append(Entry(path.stem, path.stem, None, (f"scenario.duration_s={longest_s}",) if duration_s > longest_s else ()))
+    return found
+
+
+@dataclass
+class Seen:
+    """What the tapes hold."""
+
+    modes: set = field(default_factory=set)
+    sources: set = field(default_factory=set)
+    laws: set = field(default_factory=set)
+    joints: set = field(default_factory=set)
+    codes: set = field(default_factory=set)  # of events: trips, switches, news
+
+    def add(self, tape: Tape) -> None:
+        self.modes |= set(np.unique(tape["control.mode"]).tolist())
+        self.sources |= set(np.unique(tape["control.force_source"]).tolist())
+        self.laws.add(tape.header.values["law"])
+        self.joints.add(tape.header.joints)
+        for cycle in np.flatnonzero(tape["num_events"]):
+            self.codes |= {code for code, *_ in tape.events(int(cycle))}
+
+    def lacks(self, coverage: dict[str, list]) -> list[str]:
+        """In words, what is promised and was not seen."""
+        return [f"{kind} {value}" for kind, values in coverage.items() for value in values if value not in getattr(self, kind)]
