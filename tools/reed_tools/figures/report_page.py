@@ -90,6 +90,7 @@ def origin(summary: dict) -> str:
     versions, machine = summary["versions"], summary["machine"]
     what = [f"Reed {versions['reed']}" if versions["reed"] else "", f"commit {versions['commit']}" if versions["commit"] else "",
             f"programs {versions['build']}" if versions["build"] else "",
+            f"law file {versions['law']}" if versions.get("law") else "",
             f"{machine['cpu']}, {machine['cores']} cores, kernel {machine['kernel']}" if machine.get("cpu") else ""]
     command = f"<pre>{html.escape(summary['command'])}</pre>" if summary["command"] else ""
     return command + f"<p>{html.escape('; '.join(word for word in what if word))}</p>"
