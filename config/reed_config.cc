@@ -7,6 +7,7 @@
 #include "reed/config/schema/halves.h"
 #include "reed/config/schema/plausibility.h"
 #include "reed/config/schema/scenario_file.h"
+#include "reed/plant/dynamics/arm_plant.h"
 #include "reed/rt/program.h"
 
 namespace {
@@ -26,6 +27,16 @@ void PrintMargins(const std::vector<reed::JointLoop>& loops) {
     comma = ", ";
   }
   std::printf("%s]\n", loops.empty() ? "[" : "");
+}
+
+/// What the simulated arm would refuse when it starts.
+std::string NoEquilibrium(const reed::Scenario& scenario) {
+  try {
+    const reed::plant::ArmPlant at_rest(reed::PlantHalf(scenario));
+  } catch (const reed::plant::NoEquilibrium& none) {
+    return none.kProblem;
+  }
+  return "";
 }
 
 int Run(int argc, char** argv) {
@@ -57,7 +68,8 @@ int Run(int argc, char** argv) {
     return 0;
   }
   try {
-    const reed::Scenario checked = reed::LoadScenario(scenario, options);
+    const reed::FurtherCheck at_rest{"reference.start_rad", NoEquilibrium};
+    const reed::Scenario checked = reed::LoadScenario(scenario, options, reed::Wanted::kWhole, &at_rest);
     if (margins) PrintMargins(reed::LoopsOf(checked, reed::Load::kStart));
     Write(write_path, reed::EffectiveToml(checked));
     Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));

@@ -36,6 +36,7 @@ struct ReferenceLeg {
 
 struct ReferenceConfig {
   std::vector<double> start_rad;
+  std::vector<double> start_tip_m;  // as written; start_rad are the angles that were found for it
   std::vector<ReferenceLeg> legs;
 };
 

@@ -58,9 +58,11 @@ struct WallConfig {
   double friction_speed_mps = 2e-3;  // speed at which regularised friction reaches its full value
 };
 
-/// [disturbance] an external force on the tool point. It acts in front of the wrist sensor, which reads it together
-/// with the wall's; no model and no setting of the controller holds it.
+/// [disturbance] an external force on the tool point; no model and no setting of the controller holds it.
 struct DisturbanceConfig {
+  /// kTool: in front of the wrist sensor, which reads it together with the wall's. kArm: behind it, where the arm is
+  /// pushed by the same force and the sensor reads nothing.
+  enum class Where { kTool, kArm } where = Where::kTool;
   Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // base frame
   Eigen::Vector3d amplitude_N = Eigen::Vector3d::Zero();  // of each of the sinusoids
   std::vector<double> frequencies_hz;  // one sinusoid per entry on every axis, phases from the seed

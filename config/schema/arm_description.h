@@ -26,7 +26,7 @@ struct StructuralParameter : NominalParameter {
 
 struct ArmDescription : ArmStructure {
   std::vector<StructuralParameter> parameters;  // at most kMaxParameters
-  std::vector<double> coulomb_nominal_Nm;       // empty: control.coulomb_known of the true friction
+  std::vector<double> coulomb_nominal_Nm;       // empty: control.coulomb_known of the declared
   std::vector<double> coulomb_declared_Nm;      // empty: what the controller starts from
   // [truth]
   std::vector<InertialBody> bodies;     // totals, one per link, parameters at their truth included

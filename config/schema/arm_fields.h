@@ -5,6 +5,7 @@
 
 #include "reed/config/schema/arm_description.h"
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/tube.h"
 
 namespace reed {
 
@@ -34,7 +35,7 @@ void ArmFields(V& v, ArmDescription& c) {
   v.PerJoint("speed_limit", c.speed_limit_radps, {"rad/s", 0.01, 100.0}, "absent: 3");
   v.PerJoint(
       "coulomb_nominal", c.coulomb_nominal_Nm, kArmCoulomb,
-      "Coulomb friction that the controller starts from; absent: control.coulomb_known of the true one");
+      "Coulomb friction that the controller starts from; absent: control.coulomb_known of coulomb_declared");
   v.PerJoint(
       "coulomb_declared", c.coulomb_declared_Nm, kArmCoulomb,
       "Coulomb friction of the data sheet: the estimate may reach 1.5 times it, or 5 % of torque_limit; "
@@ -67,15 +68,27 @@ void Fields(V& v, KnownMass& c) {
 }
 
 template <typename V>
-void Fields(V& v, BeamSection& c) {
+void LengthField(V& v, double& length_m) {
   v.Required(
-      "length", c.length_m, {"m", 1e-4, 20.0},
+      "length", length_m, {"m", 1e-4, 20.0},
       "of a straight member; one section per non-zero d_i and then non-zero a_i, base to tip, with just that "
       "length");
+}
+
+template <typename V>
+void Fields(V& v, BeamSection& c) {
+  LengthField(v, c.length_m);
   v.Required("EA", c.EA_N, {"N", 1.0, 1e12}, "axial stiffness");
   v.Required("EI", c.EI_Nm2, {"N·m²", 1e-3, 1e10}, "bending stiffness, both planes");
   v.Required("GJ", c.GJ_Nm2, {"N·m²", 1e-3, 1e10}, "torsional stiffness");
   v.Required("rhoA", c.rhoA_kgpm, {"kg/m", 1e-6, 1e4}, "mass per length");
+}
+
+template <typename V>
+void Fields(V& v, Tube& c) {
+  v.Required("outer", c.outer_m, {"m", 1e-3, 2.0}, "outer diameter; tube instead of EA, EI, GJ and rhoA");
+  v.Required("wall", c.wall_m, {"m", 1e-4, 1.0}, "thickness of the wall; half of outer is a rod");
+  v.Choice("material", c.material, kMaterialNames, "with the constants in config/schema/tube.h");
 }
 
 }  // namespace reed

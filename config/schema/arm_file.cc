@@ -6,6 +6,7 @@
 #include "reed/config/schema/arm_fields.h"
 #include "reed/config/schema/arm_parameters.h"
 #include "reed/config/schema/reader.h"
+#include "reed/config/schema/tube.h"
 
 namespace reed {
 namespace {
@@ -61,12 +62,35 @@ Numbers MembersOf(const ArmDescription& arm) {
   return members;
 }
 
+BeamSection ReadSection(Reader& item) {
+  BeamSection section;
+  Fields(item, section);
+  return section;
+}
+
+/// length and tube: what the other keys would say of a round tube.
+BeamSection TubeSection(Reader& item) {
+  for (const char* of_the_tube : {"EA", "EI", "GJ", "rhoA"})
+    if (item.Has(of_the_tube)) item.Fail(of_the_tube, "given twice; tube says it");
+  toml::node* node = item.Get("tube");
+  if (!node->is_table())
+    item.document().Fail(node, item.KeyName("tube"), "expected {outer = m, wall = m, material = text}");
+  Reader in(item.document(), node->as_table(), item.KeyName("tube"));
+  Tube tube;
+  Fields(in, tube);
+  in.RefuseUnknown();
+  if (2.0 * tube.wall_m > tube.outer_m)
+    in.Fail("wall", ToText(tube.wall_m) + " m is more than half of outer = " + ToText(tube.outer_m) +
+                        " m; allowed: up to that, which is a rod");
+  double length_m = 0.0;
+  LengthField(item, length_m);
+  return SectionOf(tube, length_m);
+}
+
 void ReadSections(Reader& in, ArmDescription& arm) {
   ForEachTable(in, "sections", [&](Reader& item, std::size_t) {
     for (const char* description : {"link", "E", "G", "rho", "A", "I", "J", "od", "t"}) item.Get(description);
-    BeamSection section;
-    Fields(item, section);
-    arm.sections.push_back(section);
+    arm.sections.push_back(item.Has("tube") ? TubeSection(item) : ReadSection(item));
   });
   if (arm.sections.empty()) return;
   const Numbers members = MembersOf(arm);
@@ -124,7 +148,8 @@ ArmDescription ReadArm(const Document& doc, toml::table& table, const std::strin
   ReadParameters(in, truth, arm);
   PlaceOf(in, truth, "coulomb", "coulomb");
   in.PerJoint("coulomb", arm.coulomb_Nm, kArmCoulomb, "");
-  if (arm.coulomb_declared_Nm.empty()) arm.coulomb_declared_Nm = arm.coulomb_Nm;  // there it is declared, too
+  const bool old_place = in.Has("coulomb");  // there it is declared, too
+  if (old_place && arm.coulomb_declared_Nm.empty()) arm.coulomb_declared_Nm = arm.coulomb_Nm;
   TruthFields(truth, arm);
   ReadSections(in, arm);
   in.RefuseUnknown();

@@ -11,7 +11,7 @@ NominalArm NominalOf(const ArmDescription& arm, double coulomb_known) {
   nominal.parameters.assign(arm.parameters.begin(), arm.parameters.end());
   nominal.coulomb_Nm = arm.coulomb_nominal_Nm;
   if (nominal.coulomb_Nm.empty())
-    for (const double torque : arm.coulomb_Nm) nominal.coulomb_Nm.push_back(coulomb_known * torque);
+    for (const double torque : arm.coulomb_declared_Nm) nominal.coulomb_Nm.push_back(coulomb_known * torque);
   nominal.coulomb_declared_Nm =
       arm.coulomb_declared_Nm.empty() ? nominal.coulomb_Nm : arm.coulomb_declared_Nm;
   return nominal;

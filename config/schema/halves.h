@@ -5,7 +5,7 @@
 
 namespace reed {
 
-/// Without the truth. coulomb_known: share of the true Coulomb friction that the controller starts from, where
+/// Without the truth. coulomb_known: share of the declared Coulomb friction that the controller starts from, where
 /// the arm does not state its nominal friction.
 NominalArm NominalOf(const ArmDescription& arm, double coulomb_known = 0.0);
 

@@ -83,7 +83,7 @@ std::string KeyReference() {
   List<SensorConfig>(out, "sensors");
   List<WallConfig>(out, "wall");
   List<DisturbanceConfig>(out, "disturbance");
-  out << "| reference.start_rad | list, each -6.3 ... 6.3 rad | | motor-side joint angles at the start |\n";
+  List<ReferenceConfig>(out, "reference");
   List<ReferenceLeg>(out, "reference.legs[]");
   List<ForceConfig>(out, "force");
   List<ControlConfig>(out, "control");
@@ -117,6 +117,7 @@ std::string ArmKeyReference() {
              "instead of a body: the parameter scales viscous friction");
   List<KnownMass>(out, "known_bodies[]");
   List<BeamSection>(out, "sections[]");
+  List<Tube>(out, "sections[].tube");
   truth.Row("p", "one per name, " + ToText(kArmParameter), "p_nom",
             "true parameters (old place: p_true of the arm)");
   TruthFields(truth, arm);

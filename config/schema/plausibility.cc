@@ -84,6 +84,15 @@ class LawRules : public RuleContext {
     }
   }
 
+  /// The controller knows the data sheet of an arm and never its true friction.
+  void KnownFrictionIsDeclared() const {
+    if (s_.control.coulomb_known > 0.0 && s_.arm.coulomb_declared_Nm.empty() &&
+        s_.arm.coulomb_nominal_Nm.empty())
+      Fail("control.coulomb_known",
+           ToText(s_.control.coulomb_known) +
+               " of no friction: the arm declares none; give arm.coulomb_declared or arm.coulomb_nominal");
+  }
+
   void ForceIsBelowItsLimit() const {
     if (Pressing() && s_.force.desired_N >= s_.limits.contact_force_N)
       Fail("force.desired_N", ToText(s_.force.desired_N) + " N is not below limits.contact_force_N = " +
@@ -228,6 +237,7 @@ void CheckPlausibleLaw(const Document& doc, const Scenario& scenario) {
   const LawRules rules(doc, scenario);
   rules.BusCarriesTheLimits();
   PlantRules(doc, scenario).ArmHoldsItself();
+  rules.KnownFrictionIsDeclared();
   rules.ForceIsBelowItsLimit();
   rules.SwingsHaveAFrequency();
   rules.NormalCanBeFelt();

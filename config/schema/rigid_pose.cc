@@ -65,7 +65,8 @@ std::vector<double> InertiaAboutJoints(const std::vector<InertialBody>& bodies, 
 std::vector<double> AnglesFor(const ArmStructure& arm, const Vector3d& tip, std::vector<double> q_rad,
                               double margin_rad) {
   constexpr int kMaxIterations = 500;
-  constexpr double kTolerance_m = 1e-10, kLongestStep_rad = 0.2, kDamping_m = 1e-2;
+  constexpr double kTolerance_m = 1e-10, kLongestStep_rad = 0.2, kDamping_m = 1e-2, kStuck_rad = 1e-12,
+                   kBend_rad = 1e-3;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const RigidPose pose = PoseOf(arm, q_rad);
     const Vector3d error = tip - pose.tip;
@@ -77,10 +78,30 @@ std::vector<double> AnglesFor(const ArmStructure& arm, const Vector3d& tip, std:
     JJt.diagonal().array() += damping * damping + 1e-12;
     Eigen::VectorXd step = J.transpose() * JJt.ldlt().solve(error);
     const double longest = step.cwiseAbs().maxCoeff();
+    if (longest < kStuck_rad)  // stretched: bent to whichever side, before a step leads nearer to the base
+      for (Eigen::Index i = 0; i < step.size(); ++i) step[i] += i % 2 == 0 ? -kBend_rad : 2.0 * kBend_rad;
     if (longest > kLongestStep_rad) step *= kLongestStep_rad / longest;
     for (std::size_t i = 0; i < q_rad.size(); ++i)
       q_rad[i] = std::clamp(q_rad[i] + step[static_cast<Eigen::Index>(i)],
                             arm.position_min_rad[i] + margin_rad, arm.position_max_rad[i] - margin_rad);
+  }
+  return {};
+}
+
+std::vector<double> StartAnglesFor(const ArmStructure& arm, const Vector3d& tip,
+                                   const std::vector<double>& q_rad, double margin_rad) {
+  if (!q_rad.empty()) return AnglesFor(arm, tip, q_rad, margin_rad);
+  // A stretched arm has no direction to bend in, so every guess is bent: the golden ratio spreads the joints.
+  constexpr int kGuesses = 64;
+  constexpr double kGolden = 0.6180339887498949, kPi = 3.141592653589793;
+  for (int guess = 1; guess <= kGuesses; ++guess) {
+    std::vector<double> q;
+    for (std::size_t i = 0; i < arm.dh.size(); ++i) {
+      const double share = std::fmod(kGolden * static_cast<double>(i + 1) * guess, 1.0) - 0.5;
+      const double range = arm.position_max_rad[i] - arm.position_min_rad[i];
+      q.push_back(0.5 * (arm.position_min_rad[i] + arm.position_max_rad[i]) + share * std::min(range, kPi));
+    }
+    if (q = AnglesFor(arm, tip, q, margin_rad); !q.empty()) return q;
   }
   return {};
 }

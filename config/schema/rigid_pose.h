@@ -27,6 +27,11 @@ std::vector<double> HoldingTorque(const ArmStructure& arm, const std::vector<Ine
 /// M_ii of the bodies, without rotors.
 std::vector<double> InertiaAboutJoints(const std::vector<InertialBody>& bodies, const RigidPose& pose);
 
+/// Joint angles that bring the tool point there, well inside the limits: near `q_rad`, or from the middle of the
+/// joints' ranges if that is empty; empty: none found.
+std::vector<double> StartAnglesFor(const ArmStructure& arm, const Eigen::Vector3d& tip,
+                                   const std::vector<double>& q_rad, double margin_rad);
+
 /// Joint angles near `q_rad` and within the limits that bring the tool point there; empty: none found.
 std::vector<double> AnglesFor(const ArmStructure& arm, const Eigen::Vector3d& tip, std::vector<double> q_rad,
                               double margin_rad);

@@ -8,6 +8,7 @@
 
 namespace reed {
 
+inline constexpr const char* kDisturbancePlaces[] = {"tool", "arm"};
 inline constexpr const char* kForceSources[] = {"none", "known", "unknown", "auto"};
 inline constexpr const char* kOverrunPolicies[] = {"keep_grid", "skip", "hold", "stop"};
 inline constexpr const char* kPhaseActions[] = {"count", "hold", "degrade", "fault"};
@@ -100,13 +101,24 @@ void Fields(V& v, WallConfig& c) {
 
 template <typename V>
 void Fields(V& v, DisturbanceConfig& c) {
-  v.Vector("bias_N", c.bias_N, {"N", -500, 500},
-           "constant force on the tool point, base frame; acts in front of the wrist sensor, which reads it");
+  v.Choice("where", c.where, kDisturbancePlaces,
+           "tool: in front of the wrist sensor, which reads it | arm: behind the sensor, which does not");
+  v.Vector("bias_N", c.bias_N, {"N", -500, 500}, "constant force on the tool point, base frame");
   v.Vector("amplitude_N", c.amplitude_N, {"N", -500, 500}, "of each sinusoid per axis");
   v.Numbers("frequencies_hz", c.frequencies_hz, {"Hz", 0, 200},
             "one sinusoid per entry, phases from the seed");
   v.Vector("step_N", c.step_N, {"N", -500, 500}, "added from step_s on");
   v.Number("step_s", c.step_s, {"s", -1, 3600}, "after the drives were enabled; -1: no step");
+}
+
+template <typename V>
+void Fields(V& v, ReferenceConfig& c) {
+  v.Numbers("start_rad", c.start_rad, {"rad", -6.3, 6.3},
+            "motor-side joint angles at the start; needed, or start_tip_m");
+  v.Numbers("start_tip_m", c.start_tip_m, {"m", -10, 10},
+            "instead of it: [x, y, z] of the tool point at the start, base frame, of the rigid arm. The "
+            "joint angles "
+            "are found near start_rad where both are given");
 }
 
 template <typename V>
@@ -167,7 +179,8 @@ void Fields(V& v, ControlConfig& c) {
   v.Number("Gamma_friction", c.Gamma_friction, {"1/s", 0, 1e4},
            "adaptation gain of Coulomb friction (49), times K_d");
   v.Number("coulomb_known", c.coulomb_known, {"1", 0, 1},
-           "share of the true Coulomb friction that the controller knows at the start");
+           "share of arm.coulomb_declared that the controller starts from; nothing where arm.coulomb_nominal "
+           "is given");
   v.Number("friction_speed_radps", c.friction_speed_radps, {"rad/s", 1e-4, 10},
            "speed at which modelled Coulomb friction is fully developed (48)");
   v.Number("observer_gain", c.observer_gain, {"1/s", 0, 1e3}, "K_o of the momentum observer");

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "reed/config/schema/allowed.h"
 #include "reed/config/schema/arm_file.h"
 #include "reed/config/schema/reader.h"
+#include "reed/config/schema/rigid_pose.h"
 #include "reed/config/schema/rules.h"
 #include "reed/config/schema/scenario_fields.h"
 #include "reed/config/schema/true_parameters.h"
@@ -47,9 +49,17 @@ void ReadList(Document& doc, toml::node* node, const std::string& name, std::vec
 
 void ReadReference(Document& doc, ReferenceConfig& reference) {
   Reader reader(doc, Section(doc, "reference"), "reference");
-  reader.Numbers("start_rad", reference.start_rad, {"rad", -6.3, 6.3}, "");
+  Fields(reader, reference);
   ReadList(doc, reader.Get("legs"), "reference.legs", reference.legs);
   reader.RefuseUnknown();
+}
+
+/// A path in a file is relative to that file. One from the time when it was relative to the working directory still
+/// means that, where it names no file beside its own.
+std::string BesideFile(const Document& doc, const std::string& path) {
+  const std::filesystem::path beside = std::filesystem::path(doc.path()).parent_path() / path;
+  std::error_code ec;
+  return std::filesystem::exists(beside, ec) || !std::filesystem::exists(path, ec) ? beside.string() : path;
 }
 
 /// [arm] is a name, a path, or the whole description inline (as in effective.toml).
@@ -65,6 +75,10 @@ void ResolveArm(Document& doc, const std::string& wanted) {
   std::string path;
   try {
     path = FindConfig("arms", name);
+    if (wanted.empty() && path == name) path = BesideFile(doc, name);
+    std::error_code ec;
+    if (!std::filesystem::is_regular_file(path, ec))
+      throw ConfigError(path + ": no such file; allowed: a name in config/arms, or a path to a file");
   } catch (const ConfigError& error) {
     if (wanted.empty()) doc.Fail(node, "arm", error.what());
     throw ConfigError(std::string("--arm ") + wanted + ": " + error.what());
@@ -88,26 +102,51 @@ void Spread(std::vector<double>& list, int dof) {
   if (list.size() == 1) list.assign(static_cast<std::size_t>(dof), list[0]);
 }
 
-/// The truth of an arm has a place of its own; the old keys mean that.
-std::string InItsPlace(const toml::table& root, const std::string& assignment) {
+/// The truth of an arm has a place of its own; the old keys mean that. Friction at its old place is declared, too.
+void Override(Document& doc, const std::string& assignment) {
   constexpr std::pair<const char*, const char*> kMoved[] = {{"arm.p_true", "arm.truth.p"},
                                                             {"arm.coulomb", "arm.truth.coulomb"},
+                                                            {"arm.coulomb", "arm.coulomb_declared"},
                                                             {"arm.bodies", "arm.truth.bodies"}};
+  const std::string typed = assignment.substr(0, assignment.find('='));
+  bool moved = false;
   for (const auto& [old_key, key] : kMoved) {
     const std::string rest = assignment.substr(std::min(assignment.size(), std::strlen(old_key)));
     const bool means_it = assignment.starts_with(old_key) && (rest.starts_with("=") || rest.starts_with("."));
-    if (means_it && !root.at_path(old_key) && root.at_path("arm.truth")) return key + rest;
+    if (!means_it || doc.root().at_path(old_key) || !doc.root().at_path("arm.truth")) continue;
+    doc.Override(key + rest, typed);
+    moved = true;
   }
-  return assignment;
+  if (!moved) doc.Override(assignment, typed);
+}
+
+/// start_tip_m -> start_rad. Half a margin more than the reference must keep, so that it can move from there.
+void FindStart(Document& doc, Scenario& s) {
+  ReferenceConfig& reference = s.reference;
+  const std::vector<double>& tip = reference.start_tip_m;
+  if (tip.empty()) return;
+  const auto refuse = [&](const std::string& problem) {
+    doc.Fail(doc.root().at_path("reference.start_tip_m").node(), "reference.start_tip_m", problem);
+  };
+  if (tip.size() != 3) refuse("expected [x, y, z] in m, base frame");
+  const bool near = !reference.start_rad.empty();
+  if (near && reference.start_rad.size() != s.arm.dh.size()) return;  // a rule says so
+  reference.start_rad = StartAnglesFor(s.arm, Eigen::Map<const Eigen::Vector3d>(tip.data()),
+                                       reference.start_rad, 1.5 * s.limits.position_margin_rad);
+  if (reference.start_rad.empty())
+    refuse("no joint angles within their limits bring the tool point there" +
+           std::string(near ? " from reference.start_rad" : "") + "; the arm reaches " +
+           ToShortText(s.arm.reach_m()) + " m from its base");
+  reference.start_tip_m.clear();
 }
 
 }  // namespace
 
-Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options, Wanted wanted) {
+Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options, Wanted wanted,
+                      const FurtherCheck* further) {
   Document doc = Document::Load(FindConfig("scenarios", name_or_path));
   ResolveArm(doc, options.arm);
-  for (const std::string& assignment : options.set)
-    doc.Override(InItsPlace(doc.root(), assignment), assignment.substr(0, assignment.find('=')));
+  for (const std::string& assignment : options.set) Override(doc, assignment);
   RefuseUnknownSections(doc);
 
   Scenario s;
@@ -130,10 +169,14 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   Spread(s.control.K_d, s.arm.dof());
   Spread(s.control.Lambda, s.arm.dof());
   Spread(s.reference.start_rad, s.arm.dof());
+  FindStart(doc, s);
   const bool has_law = wanted == Wanted::kWhole || doc.root().contains("control");
   CheckRules(doc, s, has_law);
   if (!s.plant.p_true.empty()) SetTrueParameters(s.arm, s.plant.p_true);
   s.wall.normal.normalize();
+  if (further == nullptr) return s;
+  if (const std::string problem = further->problem(s); !problem.empty())
+    doc.Fail(doc.root().at_path(further->key).node(), further->key, problem);
   return s;
 }
 

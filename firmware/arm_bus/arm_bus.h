@@ -62,11 +62,14 @@ class ArmBus {
     return MissingJoints() == 0;
   }
 
-  /// `at_ns`: time since the cycle's start, for the record.
-  void SendCommand(const Command<N>& command, std::int64_t at_ns, telemetry::Snapshot& tap) noexcept {
+  /// `at_ns`: time since the cycle's start, for the record. Returns the first joint whose torque is beyond what the
+  /// frame carries, so that the drive gets another one; -1: none.
+  int SendCommand(const Command<N>& command, std::int64_t at_ns, telemetry::Snapshot& tap) noexcept {
     bus::CommandMessage message{cycle_, static_cast<bus::DriveRequest>(command.request), {}};
     for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = command.torque[i];
+    const std::uint64_t cut = encoder_.counters().clamped;
     Send(encoder_.Command(message), rt::ShortNs(at_ns), tap);
+    return encoder_.counters().clamped == cut ? -1 : FirstBeyondFrame(command);
   }
 
   const Measurement<N>& measurement() const noexcept { return measurement_; }
@@ -84,6 +87,14 @@ class ArmBus {
   std::uint64_t PassedOver() const noexcept { return bus::PassedOver(transport_.counters()); }
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
+
+  static int FirstBeyondFrame(const Command<N>& command) noexcept {
+    for (int i = 0; i < N; ++i) {
+      const bus::Bounds carried = bus::layout::kCommandTorque[static_cast<std::size_t>(i)];
+      if (command.torque[i] < carried.min || command.torque[i] > carried.max) return i;
+    }
+    return -1;
+  }
 
   void Send(const bus::Frame& frame, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
     transport_.Send(std::span(&frame, 1));

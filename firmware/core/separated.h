@@ -58,7 +58,7 @@ class Separated {
     if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
     d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, disturbance_.r()),
-                             force_.in_contact(), d.normal.J_n.dot(measured.theta_dot));
+                             force_.in_contact(), kin_.J.template topRows<3>() * measured.theta_dot);
     ScaleBandwidth(d.source);
     d.force = active && d.source != ForceSource::kNone ? SeekForce(d, t_s) : ForceDemand{};
     d.desired = active

@@ -30,10 +30,11 @@ class Cycle final : public CycleBase {
     const Command<N>& command = controller_.Step(measured, state);  // estimate, decide, control, protect
     const std::int64_t computed = rt::NowNs();
 
-    bus_.SendCommand(command, computed - snapshot.time_ns, snapshot);  // send
+    const int cut = bus_.SendCommand(command, computed - snapshot.time_ns, snapshot);  // send
     const std::int64_t sent = rt::NowNs();
 
     Record(measured, snapshot);  // record
+    NoteCut(cut, command, snapshot);
     snapshot.timing.rx_ns = rt::ShortNs(received - snapshot.time_ns);
     snapshot.timing.compute_ns = rt::ShortNs(computed - received);
     snapshot.timing.tx_ns = rt::ShortNs(sent - computed);
@@ -47,6 +48,17 @@ class Cycle final : public CycleBase {
   TripPlace trip_place() const noexcept override { return controller_.trip_place(); }
 
  private:
+  /// Once for each row of cycles whose command the bus could not carry.
+  void NoteCut(int joint, const Command<N>& command, telemetry::Snapshot& snapshot) noexcept {
+    if (joint >= 0 && last_cut_ < 0) {
+      EventList events;
+      events.Add({protect::Reason::kCommandCut, joint, command.torque[joint], controller_.mode(),
+                  controller_.decision().source});
+      telemetry::FillEvents(events, snapshot);
+    }
+    last_cut_ = joint;
+  }
+
   void Record(const Measurement<N>& measured, telemetry::Snapshot& snapshot) noexcept {
     snapshot.dof = N;
     snapshot.num_parameters = controller_.settings().arm.num_parameters;
@@ -60,6 +72,7 @@ class Cycle final : public CycleBase {
   reference::PlannedPath<N> path_;  // the knots that the controller reads
   ArmBus<N> bus_;
   Controller<N, P> controller_;
+  int last_cut_ = -1;  // joint whose command was cut in the last cycle
 };
 
 }  // namespace reed

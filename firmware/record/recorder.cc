@@ -138,7 +138,7 @@ void Recorder::Record(const Snapshot& snapshot) {
   });
   writing_.store(&tape_.report().name, std::memory_order_relaxed);
   tape_.Write(snapshot);
-  report_.frames_omitted += snapshot.frames_omitted;
+  if (candump_.enabled()) report_.frames_omitted += snapshot.frames_omitted;
   ++report_.snapshots;
   last_bus_ = snapshot.bus;
   last_cycle_ = snapshot.cycle;

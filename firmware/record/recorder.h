@@ -40,7 +40,7 @@ struct RecorderOptions {
 struct RecorderReport {
   std::int64_t snapshots = 0;       // taken out of the ring
   std::int64_t thinned = 0;         // of these, not published over LCM to stay below 1000 per second
-  std::int64_t frames_omitted = 0;  // frames that found no room in their snapshot
+  std::int64_t frames_omitted = 0;  // of the CAN log: frames that found no room in their snapshot
   SinkReport log, candump, tape, lcm;
 
   /// One line per thing that went wrong: what, how many, fix.

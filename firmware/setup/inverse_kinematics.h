@@ -22,13 +22,23 @@ inline Eigen::Vector3d RotationError(const Eigen::Matrix3d& R_goal, const Eigen:
 template <int N>
 using PoseOf = std::function<model::Kinematics<N>(const model::Vec<N>& q)>;
 
+/// A small one. A stretched arm cannot come nearer to its base by any small motion of the joints: it has to be bent, to
+/// whichever side, before a step leads there.
+template <int N>
+model::Vec<N> Bend() {
+  constexpr double kBend_rad = 1e-3;
+  model::Vec<N> bend;
+  for (int i = 0; i < N; ++i) bend[i] = i % 2 == 0 ? -kBend_rad : 2.0 * kBend_rad;
+  return bend;
+}
+
 /// Moves q to the closest angles whose tool point is at `tip`; throws std::runtime_error when it cannot get
 /// there.
 template <int N>
 model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vector3d& tip,
                                      const Eigen::Matrix3d& R_goal, model::Vec<N> q) {
   constexpr int kMaxIterations = 200;
-  constexpr double kPositionTolerance = 1e-13, kStepTolerance = 1e-12, kDamping = 1e-3,
+  constexpr double kPositionTolerance = 1e-13, kReached = 1e-9, kStepTolerance = 1e-12, kDamping = 1e-3,
                    kLongestStep_rad = 0.2;
   Eigen::Vector3d error;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -52,9 +62,11 @@ model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vect
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep_rad) step *= kLongestStep_rad / longest;
     q += step;
-    if (error.norm() < kPositionTolerance && longest < kStepTolerance) return q;
+    if (longest >= kStepTolerance) continue;
+    if (error.norm() < kPositionTolerance) return q;
+    if (error.norm() >= kReached) q += Bend<N>();
   }
-  if (error.norm() < 1e-9) return q;
+  if (error.norm() < kReached) return q;
   throw std::runtime_error("the reference leaves the arm's reach at tool point [" + std::to_string(tip.x()) +
                            ", " + std::to_string(tip.y()) + ", " + std::to_string(tip.z()) + "] m");
 }

@@ -51,7 +51,10 @@ class ArmPlant::Impl {
     x_ = x_dot_ = undeformed_ = VectorXd::Zero(equations_.size());
     begin_.motor_torque = end_.motor_torque = VectorXd::Zero(n);
     truth_.motor_angle_rad = truth_.motor_speed_radps = truth_.joint_angle_rad = VectorXd::Zero(n);
-    Reset(truth_.motor_angle_rad);
+    const bool starts =
+        config.start_rad.size() == static_cast<std::size_t>(n);  // another pose may have no equilibrium
+    Reset(starts ? VectorXd(Eigen::Map<const VectorXd>(config.start_rad.data(), n))
+                 : VectorXd(VectorXd::Zero(n)));
     Shape();
   }
 
@@ -70,10 +73,7 @@ class ArmPlant::Impl {
     x_.setZero();
     x_.head(n) = x_.segment(n, n) = motor_angle_rad;
     x_dot_.setZero();
-    if (!Settle(equations_, Vector3d::Zero(), x_))
-      throw std::runtime_error(
-          "reference.start_rad: the simulated arm finds no equilibrium there; its springs or links are too "
-          "soft for its weight");
+    if (!Settle(equations_, Vector3d::Zero(), x_)) throw NoEquilibrium();
     // Structural damping: the given ratio at the lowest frequency, proportional to stiffness beyond it.
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
@@ -164,6 +164,7 @@ class ArmPlant::Impl {
     truth_.tip_m = equations_.tool_position();
     truth_.tip_velocity_mps = equations_.tool_velocity();
     truth_.contact_force_N = equations_.contact().force + disturbance_.Force(t_, t_ - schedule_from_);
+    truth_.sensed_force_N = disturbance_.sensed() ? truth_.contact_force_N : equations_.contact().force;
     truth_.normal_force_N = equations_.contact().normal_force;
     truth_.gap_m = equations_.contact().gap;
     truth_.kinetic_J = equations_.KineticEnergy();

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "reed/config/plant/plant_config.h"
@@ -18,9 +20,17 @@ struct Truth {
   Eigen::Vector3d tip_m = Eigen::Vector3d::Zero(), tip_velocity_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d contact_force_N =
       Eigen::Vector3d::Zero();  // environment (wall and disturbance) on the robot, at the tool point
-  double normal_force_N = 0.0;  // of the wall alone
+  Eigen::Vector3d sensed_force_N = Eigen::Vector3d::Zero();  // of it, what acts in front of the wrist sensor
+  double normal_force_N = 0.0;                               // of the wall alone
   double gap_m = 1e9;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
+};
+
+/// Of Reset().
+struct NoEquilibrium : std::runtime_error {
+  static constexpr const char* kProblem =
+      "the simulated arm finds no equilibrium there; its springs or links are too soft for its weight";
+  NoEquilibrium() : std::runtime_error(std::string("reference.start_rad: ") + kProblem) {}
 };
 
 /// Points of the centre line from base to tool point (centre_line.h), base frame: as they are, and where the same points
@@ -36,7 +46,8 @@ class ArmPlant {
   explicit ArmPlant(const PlantConfig& config);
   ~ArmPlant();
 
-  /// Puts the arm at rest, in static equilibrium, with the motors held at these angles. t = 0.
+  /// Puts the arm at rest, in static equilibrium, with the motors held at these angles. t = 0. Throws NoEquilibrium
+  /// where there is none.
   void Reset(const Eigen::VectorXd& motor_angle_rad);
 
   /// Advances by dt with constant motor torques (or closed brakes: motors held by stiff friction), in steps

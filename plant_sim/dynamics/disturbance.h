@@ -1,4 +1,4 @@
-// A force on the tool point that no sensor measures: bias, sinusoids with seeded phases, one step. Base frame.
+// A force on the tool point: bias, sinusoids with seeded phases, one step. Base frame.
 // RT: safe after construction.
 #pragma once
 
@@ -15,6 +15,8 @@ class Disturbance {
   Disturbance(const DisturbanceConfig& config, std::int64_t seed);
   /// N. schedule_s: what the step counts, negative before it begins to.
   Eigen::Vector3d Force(double t_s, double schedule_s) const;
+  /// It acts in front of the wrist sensor.
+  bool sensed() const { return config_.where == DisturbanceConfig::Where::kTool; }
 
  private:
   struct Sinusoid {

@@ -55,7 +55,7 @@ Measurement Robot::Measure() {
   }
   sampled_s_ = time_s_;
   // A wall and a disturbance act on a point: no moment about the tool point.
-  m.wrench = wrench_.Measure(truth.contact_force_N, Eigen::Vector3d::Zero());
+  m.wrench = wrench_.Measure(truth.sensed_force_N, Eigen::Vector3d::Zero());
   m.wrench_lost = !wrench_.fitted() || (enabled_s_ >= 0.0 && wrench_.Lost(time_s_ - enabled_s_));
   if (m.wrench_lost != wrench_lost_) {
     wrench_lost_ = m.wrench_lost;

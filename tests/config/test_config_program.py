@@ -313,7 +313,7 @@ def test_the_controllers_half_does_not_change_with_the_truth(tmp_path):
     known = "[[known_bodies]]\nmass = 0.0\n" * 5
     arm.write_text((ROOT / "config/arms/a5.toml").read_text().replace("[truth]\n", f"{known}\n[truth]\n"))
     (tmp_path / "one").mkdir(), (tmp_path / "other").mkdir()
-    common = ("--config", "press_known", "--arm", str(arm))
+    common = ("--config", "press_known", "--arm", str(arm), "--set", "control.coulomb_known=0.9")
     one, plant_one = halves(tmp_path / "one", *common)
     other, plant_other = halves(tmp_path / "other", *common, *(f"--set={key}={value}" for key, value in moved.items()))
     assert one.read_text() == other.read_text()
@@ -431,6 +431,8 @@ DOES_NOTHING_OR_CANNOT_BE = {
     "a slide without a frequency": (["reference.legs.1.frequency_hz=0"], ["reference.legs.1.frequency_hz", "stands still"]),
     "amplitudes without frequencies": (["disturbance.amplitude_N=[1,0,0]"], ["does nothing without disturbance.frequencies_hz"]),
     "frequencies without amplitudes": (["disturbance.frequencies_hz=[1]"], ["do nothing without disturbance.amplitude_N"]),
+    "a known share of no friction": (["control.coulomb_known=0.9", "arm.coulomb_declared=[]"],
+                                     ["control.coulomb_known: 0.9 of no friction", "arm.coulomb_declared or arm.coulomb_nominal"]),
     "a step at no time": (["disturbance.step_N=[1,0,0]"], ["does nothing without disturbance.step_s"]),
     "a sensor back before it is lost": (["sensors.wrench_lost_from_s=2", "sensors.wrench_lost_to_s=1"],
                                         ["sensors.wrench_lost_to_s: 1 s is not after wrench_lost_from_s = 2 s", "-1 for never"]),

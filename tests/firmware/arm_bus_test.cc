@@ -228,5 +228,17 @@ TEST_F(ArmBusTest, AWrenchOfTheCycleBeforeTheNumberWrapsIsOneCycleLate) {
   EXPECT_EQ(seen().OldestAge(), 0);
 }
 
+TEST_F(ArmBusTest, ATorqueBeyondWhatAFrameCarriesIsNamedByItsJoint) {
+  Command<kN> command;
+  command.request = DriveRequest::kEnable;
+  Sync(0);
+  EXPECT_EQ(bus_.SendCommand(command, 0, tap_), -1);
+  for (const double beyond : {9000.0, -9000.0}) {
+    command.torque.setConstant(1.0);
+    command.torque[1] = beyond;
+    EXPECT_EQ(bus_.SendCommand(command, 0, tap_), 1);
+  }
+}
+
 }  // namespace
 }  // namespace reed

@@ -110,12 +110,17 @@ TEST(EndOfAPress, LetsTheArmFollowAPathThatLeavesTheWall) {
   EXPECT_NEAR(rig.truth().tip[2], 0.156 + 0.02, 1e-3);
 }
 
-TEST(WallBeforeItsTime, IsNoZeroOfTheObserver) {
+/// How long the approach of 4 mm takes, s; the wall is met after 1.5 mm.
+class WallBeforeItsTime : public ::testing::TestWithParam<double> {};
+
+TEST_P(WallBeforeItsTime, IsNoZeroOfTheObserver) {
   Scenario scenario = LoadScenario("press_no_sensor");
-  scenario.force.start_s = 1.0;
+  scenario.reference.legs[0].duration_s = GetParam();
+  scenario.force.start_s = GetParam() + 0.6;
+  scenario.duration_s = GetParam() + 4.0;
   scenario.wall.offset_m = 0.0025;
   SilRig rig(scenario);
-  ASSERT_TRUE(rig.RunActive(3.0));
+  ASSERT_TRUE(rig.RunActive(GetParam() + 2.6));
   double sum_N = 0.0, known_N = 0.0;
   for (int k = 0; k < 900; ++k) {
     rig.Run();
@@ -125,6 +130,7 @@ TEST(WallBeforeItsTime, IsNoZeroOfTheObserver) {
   EXPECT_NEAR(known_N, 8.0, 0.8);
   EXPECT_NEAR(sum_N, 8.0, 1.0);
 }
+INSTANTIATE_TEST_SUITE_P(Approach, WallBeforeItsTime, ::testing::Values(0.4, 2.0, 8.0));
 
 bool Noted(const SilRig& rig, Reason reason, double least) {
   for (int i = 0; i < rig.snapshot().num_events; ++i) {

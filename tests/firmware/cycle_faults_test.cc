@@ -264,6 +264,31 @@ TEST(Cycle, ALawThatTracksTheForceStopsWhenTheForceIsNoLongerMeasured) {
   ExpectFault(rig, Reason::kStaleWrench);
 }
 
+TEST(Cycle, ACommandThatTheBusCutsIsAnEventOnceInARow) {
+  Scenario scenario = PressKnown();
+  for (double& limit : scenario.arm.torque_limit_Nm) limit = 9000.0;  // past the rules of the files
+  for (double& gain : scenario.control.K_d) gain = 1e6;
+  SilRig rig(scenario);
+  int events = 0, cut = 0;
+  double wanted = 0.0;
+  for (int i = 0; i < 1000 && rig.mode() != Mode::kFault; ++i) {
+    rig.Run();
+    bool beyond = false;
+    for (const double tau : rig.snapshot().control.tau) beyond = beyond || std::abs(tau) >= 2048.0;
+    cut += beyond ? 1 : 0;
+    for (int k = 0; k < rig.snapshot().num_events; ++k) {
+      const telemetry::Event& event = rig.snapshot().events[static_cast<std::size_t>(k)];
+      if (event.code != static_cast<int>(Reason::kCommandCut)) continue;
+      EXPECT_TRUE(beyond);
+      wanted = event.value;
+      ++events;
+    }
+  }
+  EXPECT_GT(std::abs(wanted), 2047.0) << "the value is what was wanted, not what the drive got";
+  EXPECT_GE(events, 1);
+  EXPECT_LE(events, cut);
+}
+
 TEST(Cycle, MissedCyclesInARowAreAFault) {
   SilRig rig(PressKnown());
   ASSERT_TRUE(rig.RunActive(0.1));

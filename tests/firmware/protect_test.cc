@@ -199,6 +199,7 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kStretched, 46},
                                             {Reason::kForceZero, 8},
                                             {Reason::kStretchHeld, 9},
+                                            {Reason::kCommandCut, 10},
                                             {Reason::kStretch, 101},
                                             {Reason::kTorque, 96},
                                             {Reason::kTorqueRate, 97},
@@ -212,8 +213,8 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  32, 33, 34, 35,  36, 37,
-                            38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 32, 33, 34, 35,  36,
+                            37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {

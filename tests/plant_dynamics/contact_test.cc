@@ -179,6 +179,24 @@ TEST(Disturbance, PushesTheArm) {
   for (int i = 0; i < 500; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
   EXPECT_GT(plant.truth().tip_m.y(), before + 3e-4);
   EXPECT_EQ(plant.truth().contact_force_N.y(), 5.0);
+  EXPECT_EQ(plant.truth().sensed_force_N, plant.truth().contact_force_N);
+}
+
+TEST(Disturbance, BehindTheSensorPushesTheArmAsMuchAndIsNotSensed) {
+  PlantConfig scene;
+  scene.arm = TrueOf(test::ArmA5());
+  scene.disturbance.bias_N = {0.0, 5.0, 0.0};
+  ArmPlant in_front(scene);
+  scene.disturbance.where = DisturbanceConfig::Where::kArm;
+  ArmPlant behind(scene);
+  for (ArmPlant* plant : {&in_front, &behind}) {
+    plant->Reset(test::MidPose());
+    for (int i = 0; i < 100; ++i) plant->Advance(VectorXd::Zero(5), true, 1e-3);
+  }
+  EXPECT_EQ(in_front.truth().tip_m, behind.truth().tip_m);
+  EXPECT_EQ(in_front.truth().contact_force_N, behind.truth().contact_force_N);
+  EXPECT_EQ(in_front.truth().sensed_force_N.y(), 5.0);
+  EXPECT_EQ(behind.truth().sensed_force_N.norm(), 0.0);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class RotorBody final : public ArmBody {
     truth_ = Truth{};
     truth_.motor_angle_rad = truth_.joint_angle_rad = motor_angle_rad;
     truth_.motor_speed_radps = Eigen::VectorXd::Zero(motor_angle_rad.size());
-    truth_.contact_force_N = force_N;
+    truth_.contact_force_N = truth_.sensed_force_N = force_N;
     ++resets;
   }
   void Advance(const Eigen::VectorXd& tau, bool braked, double dt_s) override {

@@ -98,14 +98,39 @@ TEST(NormalForce, TheObserversTareFollowsTheFreeArmButNotTheRiseOfAContact) {
 TEST(NormalForce, AWallThatIsMetBeforeItsTimeIsNoNewZeroOfTheObserver) {
   for (const double x_dot : {-5e-3, 0.0}) {  // a jump while the tip does not approach is a change of weight
     NormalForce force(kUp, kContact_N, kT);
-    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, -5e-3);
+    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, x_dot * kUp);
     for (int k = 0; k < 100; ++k)
-      force.Step(ForceSource::kUnknown, kUp, (-4.0 + 0.08 * k) * kUp, false, x_dot);
+      force.Step(ForceSource::kUnknown, kUp, (-4.0 + 0.08 * k) * kUp, false, x_dot * kUp);
     double f = 0.0;
-    for (int k = 0; k < 3000; ++k) f = force.Step(ForceSource::kUnknown, kUp, 4.0 * kUp, false, 0.0);
+    for (int k = 0; k < 3000; ++k) f = force.Step(ForceSource::kUnknown, kUp, 4.0 * kUp, false);
     EXPECT_NEAR(f, x_dot < 0.0 ? 8.0 : 0.0, 1.0) << x_dot;
-    for (int k = 0; k < 1000; ++k) f = force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, 0.0);
+    for (int k = 0; k < 1000; ++k) f = force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false);
     EXPECT_NEAR(f, 0.0, 1e-3) << "followed again when the wall is left";
+  }
+}
+
+TEST(NormalForce, HoweverSlowlyTheTipMovesTheForceOfAWallIsNoNewZero) {
+  constexpr double kSoft_Npm = 800.0, kDepth_m = 5e-3;
+  for (const double speed : {0.3e-3, 1e-3, 3e-3, 10e-3}) {
+    NormalForce force(kUp, kContact_N, kT);
+    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, -speed * kUp);
+    double f = 0.0;
+    for (double depth = 0.0; depth < kDepth_m; depth += kT * speed)
+      f = force.Step(ForceSource::kUnknown, kUp, (-4.0 + kSoft_Npm * depth) * kUp, false, -speed * kUp);
+    EXPECT_NEAR(f, kSoft_Npm * kDepth_m, 0.25 * kSoft_Npm * kDepth_m + 0.5) << speed;
+    EXPECT_TRUE(force.met_wall()) << speed;
+  }
+}
+
+TEST(NormalForce, TheErrorOfTheWeightIsFollowedWhileTheTipApproaches) {
+  constexpr double kError_Npm = 50.0;
+  for (const double speed : {1e-3, 10e-3, 50e-3}) {
+    NormalForce force(kUp, kContact_N, kT);
+    double f = 0.0;
+    for (double way = 0.0; way < 0.1; way += kT * speed)
+      f = force.Step(ForceSource::kUnknown, kUp, (-4.0 + kError_Npm * way) * kUp, false, -speed * kUp);
+    EXPECT_FALSE(force.met_wall()) << speed;
+    EXPECT_LT(f, kContact_N) << speed;
   }
 }
 

@@ -91,6 +91,23 @@ void PushAll(SnapshotRing& ring, std::int64_t first, std::int64_t last) {
   }
 }
 
+TEST_F(RecorderTest, FramesAreOmittedFromACanLogAndFromNothingElse) {
+  for (const bool candump : {true, false}) {
+    RecorderOptions options = Files();
+    if (!candump) options.candump_path.clear();
+    SnapshotRing ring(4);
+    Recorder recorder(options, TimeBase::Lockstep(1000.0), ring, SampleEventText);
+    Snapshot snapshot = SampleSnapshot(0, 5, 6);
+    snapshot.frames_omitted = 7;
+    ASSERT_TRUE(ring.Push(snapshot));
+    recorder.Start();
+    recorder.Stop();
+    const RecorderReport report = recorder.Close();
+    EXPECT_EQ(report.frames_omitted, candump ? 7 : 0);
+    EXPECT_EQ(report.Problems().size(), candump ? 1U : 0U) << "no CAN log, nothing to complain about";
+  }
+}
+
 TEST_F(RecorderTest, TheLogHoldsEveryCycleOfEveryChannelInOrder) {
   constexpr std::int64_t kCycles = 1234;
   SnapshotRing ring(64);

@@ -12,7 +12,8 @@ import pytest
 from reed_tools import cli
 from reed_tools.errors import UsageError
 from reed_tools.paths import PYTHON, ROOT
-from reed_tools.run import bus_choice, origin
+from reed_tools.record import run_folder
+from reed_tools.run import bus_choice, hil, origin
 
 BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
 
@@ -106,6 +107,9 @@ def test_a_run_folder_holds_everything_and_both_programs_got_the_same_options(re
     assert "FAIL" in done.stdout and summary["digest"][:16] in done.stdout
     assert summary["command"] == f"tools/reed run press_known --seed 5 --bus {BUS} --clock lockstep"
     assert summary["versions"]["reed"] and len(summary["versions"]["build"]) == 12 and summary["machine"]["cores"] >= 1
+    assert summary["versions"]["law"] is None
+    sealed = [line.split()[1] for line in (tmp_path / "SHA256SUMS").read_text().splitlines()]
+    assert set(hil.HALVES.values()) == set(run_folder.HALVES) <= set(sealed)
     assert summary["cause"] and summary["cause"] in done.stdout
     assert "\x1b" not in done.stdout  # no terminal: plain lines
 

@@ -8,6 +8,8 @@ import pytest
 from reed_tools import cli, versions
 from reed_tools.cli import COMMANDS
 from reed_tools.paths import ROOT, program
+from reed_tools.record import run_folder
+from reed_tools.run import origin
 from reed_tools.text import did_you_mean
 
 
@@ -26,6 +28,21 @@ def test_the_bootstrap_builds_nothing_for_it():
 def test_a_checkout_without_git_says_so(monkeypatch):
     monkeypatch.setattr(versions, "git", lambda *arguments: "")
     assert "commit unknown: " in cli.version()
+
+
+def test_the_file_of_a_law_from_outside_is_one_of_the_versions(tmp_path, monkeypatch):
+    class Arguments:
+        scenario, arm, law, duration, rate, seed, bus, clock, set = "press_known", None, f"{tmp_path}/law.so:gain=2", None, None, None, "memory", "lockstep", []
+
+    monkeypatch.setattr(versions, "build", lambda programs: " ".join(programs))
+    found = []
+    for content in ("one", "two", "one"):
+        (tmp_path / "law.so").write_text(content)
+        origin.write(tmp_path, Arguments)
+        found.append(run_folder.origin(tmp_path)["versions"])
+    assert found[0] == found[2] and found[0]["law"] != found[1]["law"] and len(found[0]["law"]) == 12
+    assert found[0]["build"] == "reed_one_process"  # the program that ran
+    assert versions.all_of_them()["law"] is None
 
 
 @pytest.mark.parametrize("argv, told", [(["rnu"], "did you mean `run`?"), (["inspekt"], "did you mean `inspect`?"),

@@ -1,9 +1,10 @@
-"""What runs here: the version of Reed, the commit of its tree and the build of its two programs."""
+"""What runs here: the version of Reed, the commit of its tree, the build of its programs and the file of a law from outside."""
 
 import hashlib
 import subprocess
 import tomllib
 from collections.abc import Iterable
+from pathlib import Path
 
 from reed_tools.paths import ROOT, program
 
@@ -30,9 +31,13 @@ def git(*arguments: str) -> str:
 
 def build(programs: Iterable[str] = PROGRAMS) -> str:
     """Of the programs of a run: runs of different builds need not be equal."""
+    return short_sum(program(name) for name in programs)
+
+
+def short_sum(paths: Iterable[Path]) -> str:
     total = hashlib.sha256()
-    for name in programs:
-        total.update(program(name).read_bytes())
+    for path in paths:
+        total.update(path.read_bytes())
     return total.hexdigest()[:12]
 
 
@@ -40,5 +45,6 @@ def of_tools() -> dict:
     return {"reed": reed(), "commit": commit()}
 
 
-def all_of_them() -> dict:
-    return of_tools() | {"build": build()}
+def all_of_them(programs: Iterable[str] = PROGRAMS, law: Path | None = None) -> dict:
+    """law: the file of a law from outside, which is in no commit and no build of ours."""
+    return of_tools() | {"build": build(programs), "law": short_sum([law]) if law else None}

@@ -4,10 +4,13 @@
 //   sensor    f = nᵀ(F − zero). The zero is the mean of 64 readings at rest. It is taken again when frames return
 //             and the arm touches nothing until the sensor is used again.
 //   observer  f̂ = nᵀF̂ (50) − tare. The tare follows nᵀF̂ − f while the sensor is used, and nᵀF̂ in free motion:
-//             slowly while the wall is sought. It is held in contact without a sensor, also before force.start_s.
+//             slowly while the wall is sought. While the tip approaches it rises no faster than the error of the
+//             weight can change with the motion of the tip. A wall is stiffer than that at any speed, so it does not
+//             become the zero. The tare is held in contact without a sensor, also before force.start_s.
 //   At a change of source the difference of both is added and decays with kForget_s.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "reed/core/contact/force_source.h"
@@ -21,8 +24,10 @@ class NormalForce {
   NormalForce(const Eigen::Vector3d& normal, double contact_N, double T) noexcept
       : normal_(normal),
         contact_N_(contact_N),
+        T_(T),
         tare_share_(-std::expm1(-T / kTare_s)),
         seek_share_(-std::expm1(-T / kSeek_s)),
+        approach_share_(-std::expm1(-T / kApproach_s)),
         forget_(std::exp(-T / kForget_s)) {}
 
   /// At rest and free. force: as read.
@@ -30,6 +35,7 @@ class NormalForce {
     if (fresh) zero_.Take(force);
     carried_ = 0.0;
     tare_ = 0.0;
+    starting_s_ = kStart_s;
   }
   /// The sensor's force on the arm, all axes, tared; as read before the tare is complete. N.
   Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
@@ -53,19 +59,20 @@ class NormalForce {
   /// The observed force rose as it does when the tip meets a wall: a contact before force.start_s.
   bool met_wall() const noexcept { return met_; }
 
-  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N. x_dot: normal speed of
-  /// the tip, m/s, < 0: into the wall.
+  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N. tip: its velocity, m/s.
   double Step(ForceSource source, const Eigen::Vector3d& read, const Eigen::Vector3d& observed,
-              bool in_contact, double x_dot = 0.0) noexcept {
+              bool in_contact, const Eigen::Vector3d& tip = Eigen::Vector3d::Zero()) noexcept {
+    approach_ += approach_share_ * (-normal_.dot(tip) - approach_);
+    const bool approaches = approach_ > kApproaching_mps;
     const bool sensor = source == ForceSource::kKnown;
     const double by_sensor = normal_.dot(zero_.Apply(read));
     const double by_observer = normal_.dot(observed);
     if (sensor) tare_ += tare_share_ * (by_observer - by_sensor - tare_);
     const bool rises = !sensor && by_observer - tare_ > contact_N_;
-    met_ = rises && (met_ || x_dot < -kApproaching_mps);
+    met_ = rises && (met_ || approaches);
     if (!sensor && !in_contact && !met_) {
       const double share = source == ForceSource::kObserver ? seek_share_ : tare_share_;
-      tare_ += share * (by_observer - tare_);
+      tare_ += std::min(share * (by_observer - tare_), MostRise(approaches, tip.norm()));
     }
     const double raw = sensor ? by_sensor : by_observer - tare_;
     carried_ *= forget_;
@@ -76,15 +83,30 @@ class NormalForce {
   }
 
  private:
+  /// Of the tare in a period, N. At the start the observer itself is on its way to the weight's error.
+  double MostRise(bool approaches, double tip_speed) noexcept {
+    if (starting_s_ > 0.0) starting_s_ -= T_;
+    const bool bounded = approaches && starting_s_ <= 0.0;
+    return bounded ? T_ * (kWeight_Npm * tip_speed + kDrift_Nps) : kNoBound_N;
+  }
+
+  static constexpr double kWeight_Npm =
+      100.0;  // several times the error of an arm's weight; a soft wall has 500 N/m
+  static constexpr double kDrift_Nps = 0.02;  // of what is left, such as the adapted friction
+  static constexpr double kStart_s = 0.2;
+  static constexpr double kNoBound_N = 1e12;
   static constexpr double kTare_s = 0.1;  // faster than the weight changes
   static constexpr double kSeek_s = 1.0;  // while the wall is sought: slower than the rise of a contact
-  static constexpr double kApproaching_mps = 0.5e-3;
+  static constexpr double kApproaching_mps = 0.1e-3, kApproach_s = 0.02;
   static constexpr double kForget_s = 0.2;  // ten times slower than the force loop
   Eigen::Vector3d normal_;
   double contact_N_;
-  double tare_share_, seek_share_, forget_;
+  double T_;
+  double tare_share_, seek_share_, approach_share_, forget_;
   ForceTare zero_, returned_;
   bool stayed_free_ = false;
+  double starting_s_ = kStart_s;
+  double approach_ = 0.0;  // normal speed of the tip into the wall, filtered, m/s
   double tare_ = 0.0, carried_ = 0.0, f_ = 0.0;
   bool sensor_before_ = true;
   bool met_ = false;  // a wall, before force.start_s

@@ -19,6 +19,7 @@ enum class Reason : std::int32_t {
   kCollision = 7,
   kForceZero = 8,
   kStretchHeld = 9,
+  kCommandCut = 10,
   // trips
   kJointPosition = 32,
   kJointSpeed = 33,
@@ -74,6 +75,8 @@ constexpr const char* Text(int code) noexcept {
     case Reason::kStretchHeld:
       return "the tip is held: nearly stretched or folded along the wall's normal, joint motion per tip "
              "motion in rad/m";
+    case Reason::kCommandCut:
+      return "a commanded torque is beyond what a frame carries and was cut; the wanted torque, N·m";
     case Reason::kJointPosition:
       return "joint position limit, rad";
     case Reason::kJointSpeed:

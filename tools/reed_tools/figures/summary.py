@@ -52,7 +52,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "parameters": metrics.parameters(recording, [
             {"name": name, "truth": truth} for name, truth in zip(arm["param_names"], arm["p_true"])]),
         "scalars": scalars.of_run(recording),
-        "versions": origin["versions"] or dict.fromkeys(("reed", "commit", "build")),
+        "versions": origin["versions"] or dict.fromkeys(("reed", "commit", "build", "law")),
         "command": origin["command"],
         "digest": recording.digest(clock),
     }

@@ -25,10 +25,15 @@ def in_words(line: str | None) -> str | None:
     return line and line.replace(f"{PYTHON_LAW}:", "")
 
 
+def file_of(wanted: str | None) -> Path | None:
+    """Without the argument that a library may have behind a colon."""
+    return Path(wanted.partition(":")[0]) if wanted else None
+
+
 def choose(wanted: str | None, clock: str) -> Law:
-    if not wanted:
+    path = file_of(wanted)
+    if path is None:
         return Law()
-    path = Path(wanted.partition(":")[0])
     if not path.is_file():
         raise UsageError(f"--law {wanted}: there is no file {path}; allowed: LIB.so[:ARGUMENT] or FILE.py")
     if path.suffix != ".py":

@@ -39,6 +39,8 @@ class Diagrams:
             handle.data = (np.ascontiguousarray(rows[:, 0]), *curves, *limits)
             column += len(plot.names)
 
-    def remove(self) -> None:
+    def show(self, visible: bool) -> None:
+        """Never removed: a page that is slower than this program applies the updates that it has collected after the removals that
+        came with them."""
         for handle in self.handles:
-            handle.remove()
+            handle.visible = visible

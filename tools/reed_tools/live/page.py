@@ -5,7 +5,7 @@ import io
 
 import viser
 
-from reed_tools.live.curves import LONGEST_s, History, plots
+from reed_tools.live.curves import LONGEST_s, History, Plot, plots
 from reed_tools.live.diagrams import Diagrams
 from reed_tools.live.moment import Moment
 from reed_tools.live.space import Space
@@ -34,6 +34,7 @@ class Page:
         panel.set_width(CURVES_px)
         self.updates = 0
         self.diagrams: Diagrams | None = None
+        self.all_diagrams: dict[str, Diagrams] = {}  # by the plots that they show
         self.space: Space | None = None
         self.known: tuple | None = None
 
@@ -46,13 +47,20 @@ class Page:
             return
         self.known = known
         with self.server.atomic():
-            if self.diagrams:
-                self.diagrams.remove()
             self.server.scene.reset()
             self.server.scene.configure_default_lights(cast_shadow=False)
             self.space = Space(self.server, effective)
+            self.use_diagrams(plots(dof, effective, names))
+
+    def use_diagrams(self, wanted: list[Plot]) -> None:
+        """Those with these plots, new or from a run before; the others are hidden."""
+        if self.diagrams:
+            self.diagrams.show(False)
+        if (key := repr(wanted)) not in self.all_diagrams:
             with self.tab:
-                self.diagrams = Diagrams(self.server, plots(dof, effective, names))
+                self.all_diagrams[key] = Diagrams(self.server, wanted)
+        self.diagrams = self.all_diagrams[key]
+        self.diagrams.show(True)
 
     def show(self, moment: Moment) -> None:
         """The state of this instant: once per update, counted on the page."""

@@ -3,7 +3,7 @@
 FIRST_TRIP, FIRST_LIMIT = 32, 96  # codes between them stop the arm
 NAMES = {
     0: "none", 1: "mode_change", 2: "force_source_change", 3: "contact", 4: "drive_state", 5: "phase_budget", 6: "cycles_missed", 7: "collision",
-    8: "force_zero", 9: "stretch_held",
+    8: "force_zero", 9: "stretch_held", 10: "command_cut",
     32: "joint_position", 33: "joint_speed", 34: "contact_force", 35: "not_finite", 36: "stale_measurement", 37: "drive_fault",
     38: "foreign_controller", 39: "missed_cycles", 40: "bus_lost", 41: "operator", 42: "unexpected_joint", 43: "stale_wrench",
     44: "phase_budget_in_row", 45: "wrench_range", 46: "stretched",

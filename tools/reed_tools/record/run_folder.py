@@ -12,12 +12,13 @@ from reed_tools.record.whole_file import write_text
 
 CONFIGURATION = "effective.toml"
 TELEMETRY = "telemetry.lcmlog"
+HALVES = ("controller.toml", "plant.toml")   # what each program reads of it
 ORIGIN = "run.json"                          # command, versions, machine
 PARTS = ("firmware.lcmlog", "plant.lcmlog")  # until they are merged
 SUMMARY = "summary.json"
 SUMS = "SHA256SUMS"                          # in the form that `sha256sum -c` reads
 TAPE = "tape.reed"                           # record/tape.py
-RECORDS = (CONFIGURATION, ORIGIN, TELEMETRY, "bus.candump", TAPE)
+RECORDS = (CONFIGURATION, *HALVES, ORIGIN, TELEMETRY, "bus.candump", TAPE)
 FILES = (*RECORDS, *PARTS, SUMS, "bus.log", "firmware.txt", "plant.txt", "one_process.txt")
 
 

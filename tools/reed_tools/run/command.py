@@ -18,7 +18,7 @@ from reed_tools.run import bus_choice, hil, live_page, origin, plans, progress, 
 from reed_tools.text import plain
 
 STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
-OWN_FILES = (*run_folder.FILES, *hil.HALVES.values(), "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
+OWN_FILES = (*run_folder.FILES, "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 EXAMPLE = """examples:
   tools/reed run                                       # the arm a5 presses 8 N on a wall
   tools/reed run press_known --clock lockstep --seed 7 # bit-identical when repeated

@@ -5,8 +5,10 @@ import shlex
 from pathlib import Path
 
 from reed_tools import versions
+from reed_tools.law import choice as law_choice
 from reed_tools.record import machine, run_folder
 from reed_tools.record.whole_file import write_text
+from reed_tools.run import plans
 
 OPTIONS = ("arm", "law", "duration", "rate", "seed", "bus", "clock")
 FILES = ("arm", "law")
@@ -31,6 +33,7 @@ def located(name: str) -> str:
 
 def write(folder: Path, arguments) -> dict:
     """What it wrote."""
-    origin = {"command": command(arguments), "versions": versions.all_of_them(), "machine": machine.description()}
+    ran = versions.all_of_them(plans.names(arguments.bus).values(), law_choice.file_of(arguments.law))
+    origin = {"command": command(arguments), "versions": ran, "machine": machine.description()}
     write_text(folder / run_folder.ORIGIN, json.dumps(origin, indent=2) + "\n")
     return origin

@@ -33,6 +33,7 @@ def again(command: str | None, raw: list[str], versions: dict | None = None, mac
     versions, machine = versions or {}, machine or {}
     what = [f"Reed {versions['reed']}" if versions.get("reed") else "", f"commit {versions['commit']}" if versions.get("commit") else "",
             f"programs {versions['build']}" if versions.get("build") else "",
+            f"law file {versions['law']}" if versions.get("law") else "",
             f"{machine['cpu']}, {machine['cores']} cores, kernel {machine['kernel']}" if machine.get("cpu") else ""]
     shown = f"<pre>{html.escape(command)}</pre>" if command else ""
     links = " ".join(f'<a href="{html.escape(quote(name))}">{html.escape(name)}</a>' for name in raw)
