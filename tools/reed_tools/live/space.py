@@ -5,6 +5,7 @@ import viser
 
 from reed_tools.live.moment import Moment
 from reed_tools.robots.arm_lines import FORCE_mPN, LEAST_FORCE_N, centre_line, wall_plate
+from reed_tools.robots.joint_frames import dof
 
 ARM, GHOST, WALL, FORCE, TRACE = (214, 94, 0), (150, 150, 150), (86, 180, 233), (200, 0, 40), (0, 114, 178)
 ARM_m, GHOST_m, TRACE_m, ARROW_m, HEAD_m = 0.018, 0.008, 0.003, 0.006, 0.014
@@ -38,7 +39,7 @@ class Space:
         points = moment.rigid + scale * (moment.bent - moment.rigid)
         self.bent.points = segments(points)
         self.tip_frame.position = points[-1]
-        if self.arm and moment.theta_d is not None and len(self.arm["dh"]) == len(moment.theta_d):
+        if self.arm and moment.theta_d is not None and dof(self.arm) == len(moment.theta_d):
             self.ghost.points = segments(centre_line(self.arm, moment.theta_d[None])[0])
         pressed = float(np.linalg.norm(moment.contact_force)) >= LEAST_FORCE_N
         self.force.visible = pressed
