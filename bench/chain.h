@@ -17,7 +17,7 @@ inline ArmDescription Chain(int joints) {
   arm.name = "chain" + std::to_string(joints);
   for (std::size_t i = 0; i < n; ++i) {
     const double twist = i % 2 == 0 ? 0.5 * std::numbers::pi : -0.5 * std::numbers::pi;
-    arm.dh.push_back({i == 0 ? 0.0 : twist, i == 0 ? 0.0 : kLength, 0.0});
+    arm.joints.push_back(JointOf({i == 0 ? 0.0 : twist, i == 0 ? 0.0 : kLength, 0.0}));
     InertialBody body;
     body.mass_kg = kMass;
     body.com_m = {0.5 * kLength, 0.0, 0.0};
@@ -31,7 +31,7 @@ inline ArmDescription Chain(int joints) {
     arm.parameters.push_back(mass);
     if (i + 1 < n) arm.sections.push_back({kLength, 1e7, 1e3, 1e3, 1.0});
   }
-  arm.tool_offset_m = {kLength, 0.0, 0.0};
+  arm.tool.xyz_m = {kLength, 0.0, 0.0};
   arm.rotor_inertia_kgm2.assign(n, 0.1);
   arm.joint_stiffness_Nmprad.assign(n, 8e3);
   arm.joint_hardening_Nmprad3.assign(n, 0.0);

@@ -13,15 +13,17 @@ inline pinocchio::Inertia BodyInertia(const InertialBody& body) {
   return {body.mass_kg, body.com_m, body.inertia_com_kgm2};
 }
 
-/// Craig DH: joint i sits at Rx(alpha) Tx(a) Tz(d) of the one before and turns about z.
+/// Joint i sits at the fixed transform of the one before, its link's frame d further along z, about which it turns.
 inline pinocchio::Model PinocchioModel(const ArmDescription& arm) {
   pinocchio::Model model;
   model.gravity.linear(arm.gravity_mps2);
   pinocchio::JointIndex parent = 0;
-  for (std::size_t i = 0; i < arm.dh.size(); ++i) {
-    const Eigen::Matrix3d R = Eigen::AngleAxisd(arm.dh[i].alpha_rad, Eigen::Vector3d::UnitX()).matrix();
-    const Eigen::Vector3d p = Eigen::Vector3d(arm.dh[i].a_m, 0, 0) + R * Eigen::Vector3d(0, 0, arm.dh[i].d_m);
-    parent = model.addJoint(parent, pinocchio::JointModelRZ(), pinocchio::SE3(R, p), "j" + std::to_string(i));
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
+    const Eigen::Matrix3d R = arm.joints[i].rotation();
+    const Eigen::Vector3d p = arm.joints[i].xyz_m + R.col(2) * arm.joints[i].d_m;
+    const pinocchio::SE3 base(arm.base.rotation(), arm.base.xyz_m);
+    const pinocchio::SE3 mount = (i == 0 ? base : pinocchio::SE3::Identity()) * pinocchio::SE3(R, p);
+    parent = model.addJoint(parent, pinocchio::JointModelRZ(), mount, "j" + std::to_string(i));
     model.appendBodyToJoint(parent, BodyInertia(arm.bodies[i]), pinocchio::SE3::Identity());
   }
   return model;

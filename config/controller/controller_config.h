@@ -17,7 +17,7 @@ namespace reed {
 /// [wall] where the controller believes the surface to be.
 struct BelievedWall {
   bool present = false;
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // on the believed surface, base frame
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // on the believed surface, world frame
   Eigen::Vector3d normal{0.0, 0.0, 1.0};              // outward, wall to robot
 };
 
@@ -29,7 +29,7 @@ struct ReferenceLeg {
   Eigen::Vector3d by_m =
       Eigen::Vector3d::Zero();  // kCartesian: minimum-jerk straight displacement of the tool point
   Eigen::Vector3d amplitude_m =
-      Eigen::Vector3d::Zero();        // kSlide: sinusoid about where the leg starts, base frame
+      Eigen::Vector3d::Zero();        // kSlide: sinusoid about where the leg starts, world frame
   double frequency_hz = 0.0;          // kSlide, kSine
   std::vector<double> amplitude_rad;  // kSine: joint sinusoid about where the leg starts
 };

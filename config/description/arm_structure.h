@@ -3,21 +3,66 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "reed/config/description/roll_pitch_yaw.h"
 #include "reed/config/sizes/sizes.h"
 
 namespace reed {
 
+/// A frame in another one, as a URDF says it: shifted by xyz, then turned about the fixed x, y and z axes.
+struct FixedFrame {
+  Eigen::Vector3d xyz_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rpy_rad = Eigen::Vector3d::Zero();
+
+  /// R = Rz(yaw) Ry(pitch) Rx(roll): columns are the axes of the frame.
+  Eigen::Matrix3d rotation() const { return RollPitchYaw(rpy_rad); }
+};
+
+/// A revolute joint: fixed in the frame of the link before it (of the base for the first), it turns about its z axis.
+/// T_{i-1,i} = T(xyz, rpy) Rz(theta_i + offset) Tz(d). The frame of the link that it moves lies d further along z.
+struct Joint : FixedFrame {
+  std::string name;         // empty: none was given
+  std::string frame;        // of the link that it moves; empty: none was given
+  double offset_rad = 0.0;  // of the angle
+  double d_m = 0.0;
+
+  /// Axes of the joint at theta = 0.
+  Eigen::Matrix3d rotation() const {
+    return FixedFrame::rotation() * RollPitchYaw(Eigen::Vector3d(0.0, 0.0, offset_rad));
+  }
+  /// Whether a row of Denavit-Hartenberg parameters says the same.
+  bool IsDhRow() const {
+    return name.empty() && frame.empty() && xyz_m.tail<2>().isZero(0.0) && rpy_rad.tail<2>().isZero(0.0);
+  }
+};
+
 /// One row of modified (Craig) Denavit-Hartenberg parameters:
-/// T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta_i) Tz(d), alpha = alpha_{i-1}, a = a_{i-1}. All joints are revolute.
+/// T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta_i + offset) Tz(d), alpha = alpha_{i-1}, a = a_{i-1}.
 struct DhRow {
   double alpha_rad = 0.0;
   double a_m = 0.0;
   double d_m = 0.0;
+  double offset_rad = 0.0;
 };
+
+inline Joint JointOf(const DhRow& row) {
+  Joint joint;
+  joint.xyz_m.x() = row.a_m;
+  joint.rpy_rad.x() = row.alpha_rad;
+  joint.offset_rad = row.offset_rad;
+  joint.d_m = row.d_m;
+  return joint;
+}
+
+inline std::vector<Joint> JointsOf(const std::vector<DhRow>& rows) {
+  std::vector<Joint> joints;
+  for (const DhRow& row : rows) joints.push_back(JointOf(row));
+  return joints;
+}
 
 /// A rigid body in the frame of the link it belongs to.
 struct InertialBody {
@@ -38,9 +83,10 @@ struct BeamSection {
 
 struct ArmStructure {
   std::string name;
-  std::vector<DhRow> dh;
-  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};  // base frame
-  Eigen::Vector3d tool_offset_m{0.0, 0.0, 0.0};   // tool point in the last link frame
+  FixedFrame base;                                // in the world
+  std::vector<Joint> joints;                      // from base to tip
+  FixedFrame tool;                                // in the last link's frame; its origin is the tool point
+  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};  // world frame
   // Per joint; empty where the file does not say (a purely kinematic arm).
   std::vector<double> rotor_inertia_kgm2;       // reflected to the joint
   std::vector<double> joint_stiffness_Nmprad;   // k_q
@@ -55,11 +101,14 @@ struct ArmStructure {
 
   /// Longest distance from base to tool point.
   double reach_m() const {
-    double reach = tool_offset_m.norm();
-    for (const DhRow& row : dh) reach += std::hypot(row.a_m, row.d_m);
+    double reach = tool.xyz_m.norm();
+    for (const Joint& joint : joints) reach += std::hypot(joint.xyz_m.norm(), joint.d_m);
     return reach;
   }
-  int dof() const { return static_cast<int>(dh.size()); }
+  int dof() const { return static_cast<int>(joints.size()); }
+  bool IsOfDhRows() const {
+    return std::all_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.IsDhRow(); });
+  }
 };
 
 }  // namespace reed

@@ -49,7 +49,7 @@ struct SensorConfig : SensorData {
 /// [wall] the true compliant half-space and where the controller believes it to be.
 struct WallConfig {
   bool present = false;
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // on the believed surface, base frame
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  // on the believed surface, world frame
   Eigen::Vector3d normal{0.0, 0.0, 1.0};              // outward, wall to robot
   double offset_m = 0.0;  // true surface lies at point + offset * normal (negative: lower than believed)
   double stiffness_Npm = 10e3;
@@ -63,7 +63,7 @@ struct DisturbanceConfig {
   /// kTool: in front of the wrist sensor, which reads it together with the wall's. kArm: behind it, where the arm is
   /// pushed by the same force and the sensor reads nothing.
   enum class Where { kTool, kArm } where = Where::kTool;
-  Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // base frame
+  Eigen::Vector3d bias_N = Eigen::Vector3d::Zero();       // world frame
   Eigen::Vector3d amplitude_N = Eigen::Vector3d::Zero();  // of each of the sinusoids
   std::vector<double> frequencies_hz;  // one sinusoid per entry on every axis, phases from the seed
   Eigen::Vector3d step_N = Eigen::Vector3d::Zero();

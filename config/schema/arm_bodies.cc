@@ -29,9 +29,9 @@ bool IsOnlyAboutZ(const InertialBody& body) {
 }
 
 void OnePerLink(Reader& in, const char* key, std::size_t count, const ArmDescription& arm) {
-  if (count != arm.dh.size())
-    in.Fail(key,
-            std::to_string(count) + " bodies for " + std::to_string(arm.dh.size()) + " joints; one per link");
+  if (count != arm.joints.size())
+    in.Fail(key, std::to_string(count) + " bodies for " + std::to_string(arm.joints.size()) +
+                     " joints; one per link");
 }
 
 }  // namespace

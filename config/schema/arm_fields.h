@@ -16,14 +16,41 @@ inline constexpr Bound kArmMoment{"kg·m²", -500.0, 500.0};
 inline constexpr Bound kArmCoulomb{"N·m", 0.0, 1e3};
 inline constexpr Bound kArmParameter{"unit of the parameter", -1e3, 1e3};
 
-/// What one may know of it, but for its rows, bodies and parameters.
+template <typename V>
+void FrameFields(V& v, FixedFrame& c, const char* xyz_doc, const char* rpy_doc) {
+  v.Vector("xyz_m", c.xyz_m, kArmLength, xyz_doc);
+  v.Vector("rpy_rad", c.rpy_rad, kArmAngle, rpy_doc);
+}
+
+template <typename V>
+void BaseFields(V& v, FixedFrame& c) {
+  FrameFields(v, c, "where the arm's base frame lies in the world frame",
+              "how it is turned there, as in a URDF: about the fixed x, y and z axes; gravity, wall and "
+              "references keep the world's axes");
+}
+
+template <typename V>
+void ToolFields(V& v, FixedFrame& c) {
+  FrameFields(v, c,
+              "tool point in the last link's frame (tool_offset and tool_offset_in_last_frame are read too)",
+              "how the tool's frame is turned there");
+}
+
+template <typename V>
+void Fields(V& v, Joint& c) {
+  v.Text("name", c.name, "of the joint");
+  v.Text("frame", c.frame, "name of the frame of the link that it moves; absent: link_1, link_2 ...");
+  FrameFields(
+      v, c, "where the joint lies in the frame of the link before it (of the base for the first), at angle 0",
+      "how its frame is turned there, as in a URDF; the joint turns about z of this frame");
+}
+
+/// What one may know of it, but for its joints, bodies and parameters.
 template <typename V>
 void ArmFields(V& v, ArmDescription& c) {
   v.Text("name", c.name, "of the arm");
   v.Vector("gravity", c.gravity_mps2, {"m/s²", -30.0, 30.0},
-           "base frame, magnitude 0 or 1.5 ... 30 m/s²: a vector in m/s² and not in units of g");
-  v.Vector("tool_offset", c.tool_offset_m, kArmLength,
-           "tool point in the last link's frame (tool_offset_in_last_frame is read too)");
+           "world frame, magnitude 0 or 1.5 ... 30 m/s²: a vector in m/s² and not in units of g");
   v.PerJoint("rotor_inertia_reflected", c.rotor_inertia_kgm2, {"kg·m²", 1e-6, 100.0},
              "J_m, motor inertia seen at the joint; needed for a run");
   v.PerJoint("joint_stiffness", c.joint_stiffness_Nmprad, {"N·m/rad", 1.0, 1e9}, "k_q; needed for a run");
@@ -69,10 +96,10 @@ void Fields(V& v, KnownMass& c) {
 
 template <typename V>
 void LengthField(V& v, double& length_m) {
-  v.Required(
-      "length", length_m, {"m", 1e-4, 20.0},
-      "of a straight member; one section per non-zero d_i and then non-zero a_i, base to tip, with just that "
-      "length");
+  v.Required("length", length_m, {"m", 1e-4, 20.0},
+             "of a straight member; one section per non-zero d_i and then non-zero a_i (x of xyz_m of the "
+             "next joint), "
+             "base to tip, with just that length");
 }
 
 template <typename V>

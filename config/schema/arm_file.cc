@@ -4,6 +4,7 @@
 
 #include "reed/config/schema/arm_bodies.h"
 #include "reed/config/schema/arm_fields.h"
+#include "reed/config/schema/arm_joints.h"
 #include "reed/config/schema/arm_parameters.h"
 #include "reed/config/schema/reader.h"
 #include "reed/config/schema/tube.h"
@@ -16,37 +17,13 @@ constexpr double kDefaultSpeed_radps = 3.0;
 
 using Numbers = std::vector<double>;
 
-void CheckWithin(Reader& in, const toml::node* where, const std::string& key, double value,
-                 const Bound& bound, const char* hint) {
-  if (value < bound.lo || value > bound.hi)
-    in.document().Fail(where, in.KeyName(key),
-                       ToText(value) + " is out of range; allowed: " + ToText(bound) + " (" + hint + ")");
-}
-
-std::vector<DhRow> ReadDh(Reader& in) {
-  const std::vector<Numbers> rows = in.Rows("dh", 3);
-  if (rows.empty()) in.Fail("dh", "missing; one row [alpha_{i-1} rad, a_{i-1} m, d_i m] per joint");
-  if (rows.size() > static_cast<std::size_t>(kMaxJoints))
-    in.Fail("dh", std::to_string(rows.size()) + " joints; allowed: 1 ... " + std::to_string(kMaxJoints));
-  std::vector<DhRow> dh;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string name = "dh[" + std::to_string(i) + "]";
-    const toml::node* where = in.Get("dh")->as_array()->get(i);
-    CheckWithin(in, where, name, rows[i][0], kArmAngle, "alpha is in radians");
-    CheckWithin(in, where, name, rows[i][1], kArmLength, "a is in metres");
-    CheckWithin(in, where, name, rows[i][2], kArmLength, "d is in metres");
-    dh.push_back({rows[i][0], rows[i][1], rows[i][2]});
-  }
-  return dh;
-}
-
 /// What guards a run has a careful default; what the drives are made of has none.
 void CompleteLimits(Reader& in, ArmDescription& arm) {
   if (arm.position_min_rad.size() != arm.position_max_rad.size())
     in.Fail("position_min", "comes with position_max, for the same joints");
-  if (arm.position_min_rad.empty()) arm.position_min_rad.assign(arm.dh.size(), -kDefaultRange_rad);
-  if (arm.position_max_rad.empty()) arm.position_max_rad.assign(arm.dh.size(), kDefaultRange_rad);
-  if (arm.speed_limit_radps.empty()) arm.speed_limit_radps.assign(arm.dh.size(), kDefaultSpeed_radps);
+  if (arm.position_min_rad.empty()) arm.position_min_rad.assign(arm.joints.size(), -kDefaultRange_rad);
+  if (arm.position_max_rad.empty()) arm.position_max_rad.assign(arm.joints.size(), kDefaultRange_rad);
+  if (arm.speed_limit_radps.empty()) arm.speed_limit_radps.assign(arm.joints.size(), kDefaultSpeed_radps);
   for (std::size_t i = 0; i < arm.position_min_rad.size(); ++i)
     if (arm.position_min_rad[i] >= arm.position_max_rad[i])
       in.Fail("position_min", "joint " + std::to_string(i + 1) + ": not below position_max");
@@ -55,9 +32,10 @@ void CompleteLimits(Reader& in, ArmDescription& arm) {
 /// Lengths of the straight members, base to tip.
 Numbers MembersOf(const ArmDescription& arm) {
   Numbers members;
-  for (std::size_t i = 0; i < arm.dh.size(); ++i) {
-    if (arm.dh[i].d_m != 0.0) members.push_back(std::abs(arm.dh[i].d_m));
-    if (i + 1 < arm.dh.size() && arm.dh[i + 1].a_m != 0.0) members.push_back(std::abs(arm.dh[i + 1].a_m));
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
+    if (arm.joints[i].d_m != 0.0) members.push_back(std::abs(arm.joints[i].d_m));
+    if (i + 1 < arm.joints.size() && arm.joints[i + 1].xyz_m.x() != 0.0)
+      members.push_back(std::abs(arm.joints[i + 1].xyz_m.x()));
   }
   return members;
 }
@@ -93,6 +71,10 @@ void ReadSections(Reader& in, ArmDescription& arm) {
     arm.sections.push_back(item.Has("tube") ? TubeSection(item) : ReadSection(item));
   });
   if (arm.sections.empty()) return;
+  for (std::size_t i = 0; i < arm.joints.size(); ++i)
+    if (!arm.joints[i].xyz_m.tail<2>().isZero(0.0))
+      in.Fail("sections", "a member lies along x or z of its link, joint " + std::to_string(i + 1) +
+                              " is beside both; allowed: xyz_m = [x, 0, 0], or no sections (rigid links)");
   const Numbers members = MembersOf(arm);
   if (members.size() != arm.sections.size())
     in.Fail("sections", std::to_string(arm.sections.size()) + " sections for " +
@@ -101,8 +83,8 @@ void ReadSections(Reader& in, ArmDescription& arm) {
   for (std::size_t i = 0; i < members.size(); ++i)
     if (std::abs(members[i] - arm.sections[i].length_m) > 1e-6)
       in.Fail("sections[" + std::to_string(i) + "]", "length " + ToText(arm.sections[i].length_m) +
-                                                         " m, but the dh row says " + ToText(members[i]) +
-                                                         " m");
+                                                         " m, but the joints are " + ToText(members[i]) +
+                                                         " m apart");
 }
 
 void CheckGravity(Reader& in, const ArmDescription& arm) {
@@ -110,7 +92,7 @@ void CheckGravity(Reader& in, const ArmDescription& arm) {
   if (g != 0.0 && (g < 1.5 || g > 30.0))
     in.Fail("gravity",
             "magnitude " + ToText(g) +
-                "; allowed: 0, or 1.5 ... 30 m/s² (a vector in m/s² in the base frame, not in units of g)");
+                "; allowed: 0, or 1.5 ... 30 m/s² (a vector in m/s² in the world frame, not in units of g)");
 }
 
 /// The truth has a place of its own; files from before it keep it among the other keys.
@@ -120,28 +102,22 @@ Reader& PlaceOf(Reader& in, Reader& truth, const char* old_key, const char* key)
   return in.Has(old_key) ? in : truth;
 }
 
-toml::table* TruthOf(const Document& doc, toml::table& table, const std::string& name) {
-  toml::node* node = table.get("truth");
-  if (node != nullptr && !node->is_table()) doc.Fail(node, name, "expected a section [" + name + "]");
-  return node == nullptr ? nullptr : node->as_table();
-}
-
 }  // namespace
 
 ArmDescription ReadArm(const Document& doc, toml::table& table, const std::string& section) {
   ArmDescription arm;
   Reader head(doc, &table, section);
-  arm.dh = ReadDh(head);
+  arm.joints = ReadJoints(head);
   Reader in(doc, &table, section, arm.dof());
   const std::string truth_name = head.KeyName("truth");
-  Reader truth(doc, TruthOf(doc, table, truth_name), truth_name, arm.dof());
+  Reader truth(doc, SectionOf(head, "truth"), truth_name, arm.dof());
   for (const char* read_over :
-       {"units", "convention", "dh", "dh_rows", "L", "l1", "l2", "lc", "note", "truth"})
+       {"units", "convention", "dh", "joint", "dh_rows", "L", "l1", "l2", "lc", "note", "truth"})
     in.Get(read_over);
   ReadKnownBodies(in, arm);
   Reader& bodies = PlaceOf(in, truth, "bodies", "bodies");
   if (bodies.Has("bodies") || arm.known.empty()) ReadBodies(bodies, arm);
-  in.Vector("tool_offset_in_last_frame", arm.tool_offset_m, kArmLength, "");
+  ReadBaseAndTool(in, arm);
   ArmFields(in, arm);
   CheckGravity(in, arm);
   CompleteLimits(in, arm);

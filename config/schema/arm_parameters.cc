@@ -116,7 +116,7 @@ void ReadShapes(Reader& in, ArmDescription& arm) {
     if (found == arm.parameters.end()) item.Fail("param", "'" + name + "' is not in param_names");
     if (item.Has("viscous_weights")) {
       item.Numbers("viscous_weights", found->viscous_weights, {"N·m·s/rad", 0.0, 1e4}, "");
-      if (found->viscous_weights.size() != arm.dh.size())
+      if (found->viscous_weights.size() != arm.joints.size())
         item.Fail("viscous_weights", "expected one number per joint");
       return;
     }

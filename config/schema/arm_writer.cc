@@ -42,6 +42,30 @@ void Parameters(const ArmDescription& arm, toml::table& out) {
   out.insert("param_shapes", std::move(shapes));
 }
 
+/// A row of four numbers where an angle has an offset.
+toml::array DhRows(const std::vector<Joint>& joints) {
+  toml::array rows;
+  for (const Joint& joint : joints) {
+    toml::array row{joint.rpy_rad.x(), joint.xyz_m.x(), joint.d_m};
+    if (joint.offset_rad != 0.0) row.push_back(joint.offset_rad);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void Geometry(ArmDescription& arm, toml::table& out) {
+  toml::table base, tool;
+  Writer base_writer(base), tool_writer(tool);
+  BaseFields(base_writer, arm.base);
+  ToolFields(tool_writer, arm.tool);
+  out.insert("base", std::move(base));
+  out.insert("tool", std::move(tool));
+  if (arm.IsOfDhRows())
+    out.insert("dh", DhRows(arm.joints));
+  else
+    out.insert("joint", Tables(arm.joints, [](Writer& w, Joint& joint) { Fields(w, joint); }));
+}
+
 toml::table Truth(ArmDescription arm) {
   toml::table out;
   Writer writer(out);
@@ -62,9 +86,7 @@ toml::table WriteArm(const ArmDescription& description) {
   toml::table out;
   Writer writer(out);
   ArmFields(writer, arm);
-  toml::array dh;
-  for (const DhRow& row : arm.dh) dh.push_back(toml::array{row.alpha_rad, row.a_m, row.d_m});
-  out.insert("dh", std::move(dh));
+  Geometry(arm, out);
   if (!arm.parameters.empty()) Parameters(arm, out);
   const auto fields = [](Writer& w, auto& item) { Fields(w, item); };
   if (!arm.known.empty()) out.insert("known_bodies", Tables(arm.known, fields));

@@ -24,7 +24,7 @@ TrueArm TrueOf(const ArmDescription& arm) {
   truth.coulomb_Nm = arm.coulomb_Nm;
   truth.viscous_Nmsprad = arm.viscous_Nmsprad;
   if (!truth.viscous_Nmsprad.empty()) return truth;
-  truth.viscous_Nmsprad.assign(arm.dh.size(), 0.0);
+  truth.viscous_Nmsprad.assign(arm.joints.size(), 0.0);
   for (const StructuralParameter& parameter : arm.parameters)
     for (std::size_t i = 0; i < parameter.viscous_weights.size(); ++i)
       truth.viscous_Nmsprad[i] += parameter.truth * parameter.viscous_weights[i];

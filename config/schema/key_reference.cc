@@ -99,11 +99,17 @@ std::string ArmKeyReference() {
   ArmDescription arm;
   InertialBody body;
   Lister lister(out, ""), truth(out, "truth"), bodies(out, "truth.bodies[]"), shapes(out, "param_shapes[]");
-  lister.Row("dh", "n rows [alpha_(i−1), a_(i−1), d_i]: ±2π rad, ±10 m, ±10 m", "needed",
-             "modified (Craig) Denavit-Hartenberg rows, T_i = Rx(alpha_(i−1)) Tx(a_(i−1)) Rz(θ_i) Tz(d_i), "
-             "all joints "
-             "revolute");
   ArmFields(lister, arm);
+  Lister base(out, "base"), joint(out, "joint[]"), tool(out, "tool");
+  BaseFields(base, arm.base);
+  Joint one;
+  Fields(joint, one);
+  joint.Row("type", "revolute", "revolute", "the only kind there is");
+  lister.Row("dh", "n rows [alpha_(i−1), a_(i−1), d_i, offset_i]: ±2π rad, ±10 m, ±10 m, ±2π rad",
+             "`[[joint]]` or this",
+             "another way to write the joints: modified (Craig) Denavit-Hartenberg rows, "
+             "T_i = Rx(alpha_(i−1)) Tx(a_(i−1)) Rz(θ_i + offset_i) Tz(d_i); offset_i may be left out");
+  ToolFields(tool, arm.tool);
   lister.Row("param_names", "up to " + std::to_string(kMaxParameters) + " names", "each link's mass",
              "the uncertain structural parameters p of (28)");
   lister.Row("p_nom", "one per name, within the box", "truth.p", "what the controller starts from");

@@ -76,7 +76,7 @@ class LawRules : public RuleContext {
 
   /// A frame clamps what it cannot carry: such a torque never comes, such a limit never trips.
   void BusCarriesTheLimits() const {
-    for (std::size_t i = 0; i < s_.arm.dh.size(); ++i) {
+    for (std::size_t i = 0; i < s_.arm.joints.size(); ++i) {
       NotAbove("arm.torque_limit", i, s_.limits.torque_scale * s_.arm.torque_limit_Nm[i],
                bus::layout::kCommandTorque[i].max, "N·m", "a command carries");
       NotAbove("arm.speed_limit", i, s_.limits.speed_scale * s_.arm.speed_limit_radps[i],

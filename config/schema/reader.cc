@@ -113,17 +113,18 @@ void Reader::PerJoint(const char* key, std::vector<double>& value, Bound bound, 
                   " joints; one per joint, or one for all");
 }
 
-std::vector<std::vector<double>> Reader::Rows(const char* key, std::size_t width) {
+std::vector<std::vector<double>> Reader::Rows(const char* key, std::size_t width, std::size_t widest) {
+  const std::string size = std::to_string(width) + (widest > width ? " or " + std::to_string(widest) : "");
   toml::node* node = Get(key);
   std::vector<std::vector<double>> rows;
   if (node == nullptr) return rows;
   const toml::array* array = node->as_array();
-  if (array == nullptr) Fail(key, "expected a list of rows of " + std::to_string(width) + " numbers");
+  if (array == nullptr) Fail(key, "expected a list of rows of " + size + " numbers");
   for (std::size_t i = 0; i < array->size(); ++i) {
     const std::string name = std::string(key) + "[" + std::to_string(i) + "]";
     const toml::array* row = (*array)[i].as_array();
-    if (row == nullptr || row->size() != width)
-      doc_.Fail(&(*array)[i], KeyName(name), "expected a row of " + std::to_string(width) + " numbers");
+    if (row == nullptr || row->size() < width || row->size() > std::max(width, widest))
+      doc_.Fail(&(*array)[i], KeyName(name), "expected a row of " + size + " numbers");
     std::vector<double> numbers;
     for (const toml::node& cell : *row) {
       const auto number = cell.value<double>();

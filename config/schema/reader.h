@@ -31,8 +31,8 @@ class Reader {
   void PerJoint(const char* key, std::vector<double>& value, Bound bound, const char* doc);
   /// Three rows of three numbers.
   void Matrix(const char* key, Eigen::Matrix3d& value, Bound bound, const char* doc);
-  /// A list of equally long rows of numbers.
-  std::vector<std::vector<double>> Rows(const char* key, std::size_t width);
+  /// A list of rows of numbers: `width` in each, or up to `widest`.
+  std::vector<std::vector<double>> Rows(const char* key, std::size_t width, std::size_t widest = 0);
 
   /// Enumerations: names[i] is the text of value i.
   template <typename Enum, std::size_t K>

@@ -12,17 +12,17 @@ using Eigen::Vector3d;
 
 RigidPose PoseOf(const ArmStructure& arm, const std::vector<double>& q_rad) {
   RigidPose pose;
-  Matrix3d R = Matrix3d::Identity();
-  Vector3d p = Vector3d::Zero();
-  for (std::size_t i = 0; i < arm.dh.size(); ++i) {
-    const DhRow& row = arm.dh[i];
-    p += R.col(0) * row.a_m;
-    R = R * AngleAxisd(row.alpha_rad, Vector3d::UnitX()) * AngleAxisd(q_rad[i], Vector3d::UnitZ());
-    p += R.col(2) * row.d_m;
+  Matrix3d R = arm.base.rotation();
+  Vector3d p = arm.base.xyz_m;
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
+    const Joint& joint = arm.joints[i];
+    p += R * joint.xyz_m;
+    R = R * joint.rotation() * AngleAxisd(q_rad[i], Vector3d::UnitZ());
+    p += R.col(2) * joint.d_m;
     pose.R.push_back(R);
     pose.p.push_back(p);
   }
-  pose.tip = p + R * arm.tool_offset_m;
+  pose.tip = p + R * arm.tool.xyz_m;
   return pose;
 }
 

@@ -8,7 +8,7 @@
 
 namespace reed {
 
-/// Base frame.
+/// World frame.
 struct RigidPose {
   std::vector<Eigen::Matrix3d> R;  // of every link
   std::vector<Eigen::Vector3d> p;  // origin of every link

@@ -40,15 +40,14 @@ class Rules : public RuleContext {
 
   /// A run needs what a drawing of the arm does not: motors, limits, stiffness.
   void ArmIsComplete() const {
-    if (s_.arm.dof() < 2) Fail("arm.dh", "a run needs 2 ... " + std::to_string(kMaxJoints) + " joints");
+    if (s_.arm.dof() < 2)
+      Fail(s_.arm.IsOfDhRows() ? "arm.dh" : "arm.joint",
+           "a run needs 2 ... " + std::to_string(kMaxJoints) + " joints");
     Present("arm.rotor_inertia_reflected", s_.arm.rotor_inertia_kgm2);
     Present("arm.joint_stiffness", s_.arm.joint_stiffness_Nmprad);
     Present("arm.torque_limit", s_.arm.torque_limit_Nm);
     Present("arm.position_min", s_.arm.position_min_rad);
     Present("arm.speed_limit", s_.arm.speed_limit_radps);
-    if (s_.plant.flexible_links && s_.arm.sections.empty())
-      Fail("arm.sections",
-           "missing; flexible links need one per straight member, or set plant.flexible_links = false");
   }
 
   void StartInsideLimits() const {
@@ -142,7 +141,8 @@ class Rules : public RuleContext {
   void WallIsWithinReach() const {
     if (s_.wall.present && s_.wall.normal.norm() < 1e-3) Fail("wall.normal", "has no direction");
     const double reach = s_.arm.reach_m();
-    const double distance = std::abs(s_.wall.point_m.dot(s_.wall.normal.normalized()));
+    const Eigen::Vector3d from_base = s_.wall.point_m - s_.arm.base.xyz_m;
+    const double distance = std::abs(from_base.dot(s_.wall.normal.normalized()));
     if (s_.wall.present && distance > reach)
       Fail("wall.point_m",
            "the wall is " + ToShortText(distance) + " m away, the arm reaches " + ToShortText(reach) + " m");
@@ -171,7 +171,7 @@ class Rules : public RuleContext {
   }
   void PerJoint(const std::string& key, const std::vector<double>& list, bool needed) const {
     if (list.empty() && needed) Fail(key, "missing; one number per joint");
-    if (!list.empty() && list.size() != s_.arm.dh.size())
+    if (!list.empty() && list.size() != s_.arm.joints.size())
       Fail(key, std::to_string(list.size()) + " numbers for " + std::to_string(s_.arm.dof()) + " joints");
   }
   void PerParameter(const std::string& key, const std::vector<double>& list) const {

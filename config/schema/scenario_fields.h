@@ -65,7 +65,7 @@ void Fields(V& v, SensorConfig& c) {
   v.Number("moment_noise_Nm", c.moment_noise_Nm, {"N·m", 0, 100}, "standard deviation per axis");
   v.Number("moment_quantum_Nm", c.moment_quantum_Nm, {"N·m", 0, 10}, "step of the moment reading");
   v.Vector("force_bias_N", c.force_bias_N, {"N", -100, 100},
-           "constant error of the force reading, base axes");
+           "constant error of the force reading, world axes");
   v.Number("wrench_lost_from_s", c.wrench_lost_from_s, {"s", -1, 3600},
            "no wrench frames from here, after the drives were enabled; -1: never");
   v.Number("wrench_lost_to_s", c.wrench_lost_to_s, {"s", -1, 3600},
@@ -77,7 +77,7 @@ template <typename V, typename Wall>
 void BelievedFields(V& v, Wall& c) {
   v.Boolean("present", c.present, "there is a wall");
   v.Vector("point_m", c.point_m, {"m", -10, 10},
-           "a point of the surface as the controller believes it, base frame");
+           "a point of the surface as the controller believes it, world frame");
   v.Vector("normal", c.normal, {"1", -1, 1}, "outward normal, wall to robot; normalised on reading");
 }
 
@@ -103,7 +103,7 @@ template <typename V>
 void Fields(V& v, DisturbanceConfig& c) {
   v.Choice("where", c.where, kDisturbancePlaces,
            "tool: in front of the wrist sensor, which reads it | arm: behind the sensor, which does not");
-  v.Vector("bias_N", c.bias_N, {"N", -500, 500}, "constant force on the tool point, base frame");
+  v.Vector("bias_N", c.bias_N, {"N", -500, 500}, "constant force on the tool point, world frame");
   v.Vector("amplitude_N", c.amplitude_N, {"N", -500, 500}, "of each sinusoid per axis");
   v.Numbers("frequencies_hz", c.frequencies_hz, {"Hz", 0, 200},
             "one sinusoid per entry, phases from the seed");

@@ -42,7 +42,8 @@ class Visitor {
 
 template <typename Each>
 void Visit(Visitor<Each>& visit, model::ArmModel<N, P>& arm) {
-  visit.All(arm.cos_alpha, arm.sin_alpha, arm.a, arm.d, arm.gravity, arm.tool_offset);
+  for (int i = 0; i < N; ++i) visit.All(arm.mount_R[i], arm.mount_p[i]);
+  visit.All(arm.d, arm.gravity, arm.tool_offset, arm.tool_rotation);
   for (int i = 0; i <= N; ++i) visit(arm.first_shape[i]);
   for (int j = 0; j < arm.first_shape[N]; ++j) {
     model::UnitShape& shape = arm.shape[j];

@@ -13,12 +13,14 @@ using Vec = reed::model::Vec<N>;
 reed::Settings<N, P> TwoLinks() {
   reed::Settings<N, P> s;
   s.arm = {};
-  s.arm.cos_alpha << 0.0, 1.0;  // the first axis is horizontal
-  s.arm.sin_alpha << 1.0, 0.0;
-  s.arm.a << 0.0, 1.0;
+  s.arm.mount_R[0] << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;  // the first axis is horizontal
+  s.arm.mount_R[1].setIdentity();
+  s.arm.mount_p[0].setZero();
+  s.arm.mount_p[1] = Eigen::Vector3d::UnitX();
   s.arm.d.setZero();
   s.arm.gravity << 0.0, 0.0, -9.81;
   s.arm.tool_offset << 1.0, 0.0, 0.0;
+  s.arm.tool_rotation.setIdentity();
   const reed::model::MassMoments end(1.0, Eigen::Vector3d::UnitX(), Eigen::Matrix3d::Zero());
   for (int i = 0; i < N; ++i) {
     s.arm.first_shape[i] = i;

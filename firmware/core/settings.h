@@ -20,7 +20,7 @@ struct Settings {
   strategy::ForceModeConfig force_mode;
   reference::ForceProfile force;
   strategy::SourceSetting source = strategy::SourceSetting::kNone;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward, wall to robot, base frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward, wall to robot, world frame
   double reach_m = 1.0;                               // of the arm, base to tool point
   double force_noise_N = 0.1;                         // of the force sensor, resolution included
   bool wall_present = false;                          // the arm is to expect a wall

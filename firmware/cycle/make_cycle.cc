@@ -22,7 +22,7 @@ std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Controll
       ((scenario.arm.dof() == N && (cycle = MakeCycleFor<N>(scenario, transport, start_wanted, law), true)) ||
        ...);
   if (!found)
-    throw std::runtime_error("arm.dh: " + std::to_string(scenario.arm.dof()) +
+    throw std::runtime_error("arm.joint: " + std::to_string(scenario.arm.dof()) +
                              " joints; this build controls " REED_JOINTS_TEXT);
   return cycle;
 }

@@ -90,7 +90,7 @@ void AddMember(const NominalArm& arm, Member beam, ArmModel<N, P>& out) {
   beam.length = std::abs(beam.end_at - beam.start_at);
   if (std::abs(section.length_m - beam.length) > 1e-6) {
     throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
-                                std::to_string(section.length_m) + " m long, its DH entry " +
+                                std::to_string(section.length_m) + " m long, its joints are apart by " +
                                 std::to_string(beam.length) + " m");
   }
   beam.EA = section.EA_N;
@@ -106,12 +106,13 @@ void AddMember(const NominalArm& arm, Member beam, ArmModel<N, P>& out) {
 /// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
 template <int N, int P>
 void ReadMembers(const NominalArm& arm, ArmModel<N, P>& out) {
+  const auto along_x = [&](int i) { return arm.joints[static_cast<std::size_t>(i)].xyz_m.x(); };
   out.num_members = 0;
   for (int i = 0; i < N; ++i) {
     out.carrier[i] = -1;
     if (arm.sections.empty()) continue;
     if (out.d(i) != 0.0) AddMember(arm, {i, 2, -out.d(i), 0.0}, out);
-    if (i + 1 < N && out.a(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, out.a(i + 1)}, out);
+    if (i + 1 < N && along_x(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, along_x(i + 1)}, out);
   }
   if (static_cast<int>(arm.sections.size()) != out.num_members) {
     throw std::invalid_argument(arm.name + ": " + std::to_string(arm.sections.size()) + " sections for " +
@@ -131,14 +132,17 @@ ArmModel<N, P> ArmModelFrom(const NominalArm& arm) {
   }
   ArmModel<N, P> out;
   out.gravity = arm.gravity_mps2;
-  out.tool_offset = arm.tool_offset_m;
+  out.tool_offset = arm.tool.xyz_m;
+  out.tool_rotation = arm.tool.rotation();
   for (int i = 0; i < N; ++i) {
-    const DhRow& row = arm.dh[static_cast<std::size_t>(i)];
-    out.cos_alpha(i) = std::cos(row.alpha_rad);
-    out.sin_alpha(i) = std::sin(row.alpha_rad);
-    out.a(i) = row.a_m;
-    out.d(i) = row.d_m;
+    const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
+    out.mount_R[i] = joint.rotation();
+    out.mount_p[i] = joint.xyz_m;
+    out.d(i) = joint.d_m;
   }
+  const Eigen::Matrix3d R_base = arm.base.rotation();
+  out.mount_p[0] = arm.base.xyz_m + R_base * out.mount_p[0];
+  out.mount_R[0] = (R_base * out.mount_R[0]).eval();
   using internal::PerJoint;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   out.rotor_inertia = PerJoint<N>(arm.rotor_inertia_kgm2, 0.0, "rotor inertia");

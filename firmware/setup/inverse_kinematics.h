@@ -12,7 +12,7 @@
 
 namespace reed::reference {
 
-/// Small rotation vector that takes R to R_goal, base axes.
+/// Small rotation vector that takes R to R_goal, world axes.
 inline Eigen::Vector3d RotationError(const Eigen::Matrix3d& R_goal, const Eigen::Matrix3d& R) {
   const Eigen::AngleAxisd turn(R_goal * R.transpose());
   return turn.angle() * turn.axis();
@@ -55,7 +55,7 @@ model::Vec<N> SolveInverseKinematics(const PoseOf<N>& pose_of, const Eigen::Vect
     // Damped: directions in which the remaining freedom hardly turns the hand are left alone.
     Eigen::Matrix3d AAt = A * A.transpose();
     AAt.diagonal().array() += kDamping * kDamping;
-    const Eigen::Vector3d turn = RotationError(R_goal, kin.R_tip()) - J_w * step;
+    const Eigen::Vector3d turn = RotationError(R_goal, kin.R_last()) - J_w * step;
     // Once more through the null space: of the first pass 1e-12 of a turn that cannot be made would leak into
     // the position, divided by the damping.
     step += null_space * (A.transpose() * math::SolvePositive<3>(AAt, turn));

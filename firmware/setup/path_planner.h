@@ -77,10 +77,10 @@ class PathPlanner {
       }
       case Kind::kCartesian:
         return SolveInverseKinematics<N>(pose_of_, start.tip + MinimumJerk(t, leg.duration_s).s * leg.by_m,
-                                         start.R_tip(), q_near);
+                                         start.R_last(), q_near);
       case Kind::kSlide:
         return SolveInverseKinematics<N>(pose_of_, start.tip + Swing(leg, t, ends) * leg.amplitude_m,
-                                         start.R_tip(), q_near);
+                                         start.R_last(), q_near);
     }
     return q_start;
   }

@@ -7,7 +7,7 @@
 //   free            Δt: six coordinates
 //   rigid           Ω^r (Δt_i - Δt_j) = 0: moves with its master like one body, no coordinate
 //   elastic joint   as rigid, but for one rotation: Ω^e (Δt_i - Δt_j) = ξ, one coordinate, Ω^e W = k_q ξ
-// With Δt = T q the aggregate of (5) is  (Tᵀ K T) q = Tᵀ W.  Base axes, SI.  RT: set-up only (allocates).
+// With Δt = T q the aggregate of (5) is  (Tᵀ K T) q = Tᵀ W.  World axes, SI.  RT: set-up only (allocates).
 #pragma once
 
 #include <Eigen/Core>

@@ -11,7 +11,7 @@ namespace reed::model {
 using Mat12 = Mat<12, 12>;
 using Vec12 = Vec<12>;
 
-/// Stiffness in base axes; each end has displacement (3) then rotation (3), start before end.
+/// Stiffness in world axes; each end has displacement (3) then rotation (3), start before end.
 Mat12 MemberStiffness(const Eigen::Vector3d& direction, double L, double EA, double EI, double GJ);
 
 /// Equivalent nodal wrenches of the force Q spread evenly: half at each end, with couples ±(L/12) t × Q.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kHoldingTorqueOverLimit = 3.0;  // of a brake, over the drive's torque limit
 constexpr double kHoldingTorque = 200.0;         // N·m, where the arm file states no torque limit
-constexpr double kSameLength = 1e-6;             // m, between a section and its Denavit-Hartenberg row
+constexpr double kSameLength = 1e-6;             // m, between a section and its member
 constexpr double kSlight = 0.05;                 // of a link's mass: such a rest sits at a member's end
 constexpr double kNothing = 1e-14;               // of a mount that is an identity but for round-off
 constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
@@ -70,6 +70,18 @@ Drivetrain BuildDrivetrain(const TrueArm& arm, const PlantModelConfig& config, s
 
 Placement Shift(const Vector3d& p) { return {Matrix3d::Identity(), p}; }
 
+Matrix3d TurnAbout(const Vector3d& axis, double angle_rad) {
+  return AngleAxisd(angle_rad, axis).toRotationMatrix();
+}
+
+/// Turned about its own axes in turn: z, then y, then x. The same frame as about the fixed x, y, z.
+Placement PlacementOf(const FixedFrame& frame) {
+  const Vector3d& rpy = frame.rpy_rad;
+  return {TurnAbout(Vector3d::UnitZ(), rpy.z()) * TurnAbout(Vector3d::UnitY(), rpy.y()) *
+              TurnAbout(Vector3d::UnitX(), rpy.x()),
+          frame.xyz_m};
+}
+
 /// Base of a member whose x axis points along z (d) or x (a) of the link frame, or against it.
 Placement AlongD(double d) {
   const double s = d < 0.0 ? -1.0 : 1.0;
@@ -86,26 +98,29 @@ Placement AlongA(double a) {
 /// Builds the chain link by link; keeps the pose of the last output frame in the frame of the current link.
 class Builder {
  public:
-  Builder(const TrueArm& arm, const PlantModelConfig& config) : arm_(arm), config_(config) {
+  Builder(const TrueArm& arm, const PlantModelConfig& config)
+      : arm_(arm),
+        config_(config),
+        bends_(config.flexible_links && !arm.sections.empty()),
+        output_(PlacementOf(arm.base).Inverse()) {
     chain_.gravity = arm.gravity_mps2;
   }
 
   void AddJoint(std::size_t i) {
-    const DhRow& row = arm_.dh[i];
-    Element joint;
-    joint.mount =
-        output_.Inverse() * Placement{AngleAxisd(row.alpha_rad, Vector3d::UnitX()).toRotationMatrix(),
-                                      Vector3d(row.a_m, 0.0, 0.0)};
-    joint.joint = static_cast<int>(i);
-    chain_.elements.push_back(joint);
+    const Joint& joint = arm_.joints[i];
+    Element turn;
+    turn.mount = output_.Inverse() * PlacementOf(joint);
+    turn.mount.R = (turn.mount.R * TurnAbout(Vector3d::UnitZ(), joint.offset_rad)).eval();
+    turn.joint = static_cast<int>(i);
+    chain_.elements.push_back(turn);
     chain_.drivetrains.push_back(BuildDrivetrain(arm_, config_, i));
-    output_ = Shift({0.0, 0.0, -row.d_m});
+    output_ = Shift({0.0, 0.0, -joint.d_m});
   }
 
   void AddLink(std::size_t i) {
     const InertialBody& b = arm_.bodies[i];
     const RigidBody body{b.mass_kg, b.com_m, b.inertia_com_kgm2};
-    if (!config_.flexible_links) {
+    if (!bends_) {
       Attach(chain_.elements.back(), body);
       return;
     }
@@ -129,10 +144,10 @@ class Builder {
   }
 
   ArmChain Finish() {
-    Require(!config_.flexible_links || section_ == arm_.sections.size(), arm_,
+    Require(!bends_ || section_ == arm_.sections.size(), arm_,
             std::to_string(arm_.sections.size()) + " sections are given, its members are " +
                 std::to_string(section_));
-    chain_.tool = output_.Inverse() * Shift(arm_.tool_offset_m);
+    chain_.tool = output_.Inverse() * Shift(arm_.tool.xyz_m);
     for (Element& element : chain_.elements) {
       element.mount_turns = !element.mount.R.isIdentity(kNothing);
       element.mount_shifts = !element.mount.p.isZero(kNothing);
@@ -156,8 +171,11 @@ class Builder {
       members.push_back({base, length, s.rhoA_kgpm, 2.0 * s.rhoA_kgpm * s.EI_Nm2 / s.EA_N, {}});
     };
     sections_of_link_ = section_;
-    add(AlongD(arm_.dh[i].d_m), arm_.dh[i].d_m);
-    if (i + 1 < arm_.dh.size()) add(AlongA(arm_.dh[i + 1].a_m), arm_.dh[i + 1].a_m);
+    add(AlongD(arm_.joints[i].d_m), arm_.joints[i].d_m);
+    if (i + 1 < arm_.joints.size()) {
+      const double along_x = arm_.joints[i + 1].xyz_m.x();
+      add(AlongA(along_x), along_x);
+    }
     return members;
   }
 
@@ -196,6 +214,7 @@ class Builder {
 
   const TrueArm& arm_;
   const PlantModelConfig& config_;
+  bool bends_;  // rigid where the arm has no sections
   ArmChain chain_;
   Placement output_;                                // last output frame in the current link's frame
   std::size_t section_ = 0, sections_of_link_ = 0;  // next section to read, next one to build
@@ -209,7 +228,7 @@ ArmChain BuildChain(const TrueArm& arm, const PlantModelConfig& config) {
   Require(config.stiffness_scale > 0.0 && config.joint_stiffness_scale > 0.0, arm,
           "stiffness scales must be positive");
   Builder builder(arm, config);
-  for (std::size_t i = 0; i < arm.dh.size(); ++i) {
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
     builder.AddJoint(i);
     builder.AddLink(i);
   }

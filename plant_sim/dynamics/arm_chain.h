@@ -46,7 +46,7 @@ struct ArmChain {
   std::vector<Drivetrain> drivetrains;  // one per joint
   std::vector<Member> members;
   Placement tool;                                     // tool point in the last output frame
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², base frame
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², world frame
 
   int dof() const { return static_cast<int>(drivetrains.size()); }
   /// Motor angles, joint angles, elastic coordinates of every member.

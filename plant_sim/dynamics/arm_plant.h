@@ -13,7 +13,7 @@
 
 namespace reed::plant {
 
-/// The true state at one instant, for sensors, telemetry and checks. SI, base frame.
+/// The true state at one instant, for sensors, telemetry and checks. SI, world frame.
 struct Truth {
   double t_s = 0.0;
   Eigen::VectorXd motor_angle_rad, motor_speed_radps, joint_angle_rad;
@@ -33,7 +33,7 @@ struct NoEquilibrium : std::runtime_error {
   NoEquilibrium() : std::runtime_error(std::string("reference.start_rad: ") + kProblem) {}
 };
 
-/// Points of the centre line from base to tool point (centre_line.h), base frame: as they are, and where the same points
+/// Points of the centre line from base to tool point (centre_line.h), world frame: as they are, and where the same points
 /// would be if nothing bent and the joints were at the motor angles.
 struct ArmShape {
   std::vector<Eigen::Vector3d> bent, rigid;

@@ -1,4 +1,4 @@
-// The arm's centre line as points from base to tool point, base frame: every joint, both ends of every element and
+// The arm's centre line as points from base to tool point, world frame: every joint, both ends of every element and
 // sections inside it. Kinematics alone, so that it can be asked for any state beside the one that is integrated.
 // RT: safe after construction.
 #pragma once

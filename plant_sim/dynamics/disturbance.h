@@ -1,4 +1,4 @@
-// A force on the tool point: bias, sinusoids with seeded phases, one step. Base frame.
+// A force on the tool point: bias, sinusoids with seeded phases, one step. World frame.
 // RT: safe after construction.
 #pragma once
 

@@ -25,7 +25,7 @@ struct Load {
   Eigen::VectorXd motor_torque;                           // N·m
   const std::vector<Brake>* brakes = nullptr;             // null: open
   bool hold_motors = false;                               // the motors cannot move at all
-  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();  // N, at the tool point, base frame
+  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();  // N, at the tool point, world frame
 };
 
 /// Right-hand side terms and weights of the implicit part, as defined above.
@@ -33,7 +33,7 @@ struct Implicit {
   double c_d = 0.0, c_k = 0.0;
   Eigen::VectorXd y_d, y_k;
   Eigen::Vector3d tool_y_d = Eigen::Vector3d::Zero(),
-                  tool_y_k = Eigen::Vector3d::Zero();  // J_tool y, base frame
+                  tool_y_k = Eigen::Vector3d::Zero();  // J_tool y, world frame
 };
 
 class EquationsOfMotion {
@@ -53,7 +53,7 @@ class EquationsOfMotion {
   /// k as defined above.
   void Solve(const Load& load, const Implicit& implicit, Eigen::VectorXd& k);
 
-  /// J_tool k of the last Solve, base frame.
+  /// J_tool k of the last Solve, world frame.
   const Eigen::Vector3d& tool_rate() const { return tool_rate_; }
 
   const Eigen::Vector3d& tool_position() const { return tool_position_; }

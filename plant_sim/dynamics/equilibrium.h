@@ -6,7 +6,7 @@
 namespace reed::plant {
 
 /// Newton's method on joint angles and elastic coordinates; the motor angles of x stay. The wall and
-/// `tip_force_N` (base frame, at the tool point) take part. Leaves `equations` at rest in x. Returns false
+/// `tip_force_N` (world frame, at the tool point) take part. Leaves `equations` at rest in x. Returns false
 /// when it does not converge.
 bool Settle(EquationsOfMotion& equations, const Eigen::Vector3d& tip_force_N, Eigen::VectorXd& x);
 

@@ -56,7 +56,7 @@ namespace {
 
 /// What bends while the motors are locked: a description may leave out the rotors, which do not move, and
 /// either the springs or the sections, which are then rigid.
-ArmChain LockedChain(TrueArm arm, PlantModelConfig config) {
+ArmChain LockedChain(TrueArm arm, const PlantModelConfig& config) {
   constexpr double kRigid_Nmprad = 1e9;
   const auto joints = static_cast<std::size_t>(arm.dof());
   if (arm.joint_stiffness_Nmprad.empty() && arm.sections.empty())
@@ -64,7 +64,6 @@ ArmChain LockedChain(TrueArm arm, PlantModelConfig config) {
                                 ": nothing bends, it has neither joint_stiffness nor sections");
   if (arm.rotor_inertia_kgm2.empty()) arm.rotor_inertia_kgm2.assign(joints, 1.0);
   if (arm.joint_stiffness_Nmprad.empty()) arm.joint_stiffness_Nmprad.assign(joints, kRigid_Nmprad);
-  if (arm.sections.empty()) config.flexible_links = false;
   return BuildChain(arm, config);
 }
 

@@ -20,14 +20,14 @@ class ArmModes {
   ArmModes(const TrueArm& arm, const PlantModelConfig& config, const Eigen::VectorXd& motor_angle_rad);
   ~ArmModes();
 
-  /// Equilibrium under a force at the tool point (base frame), with or without gravity. Returns the tool
+  /// Equilibrium under a force at the tool point (world frame), with or without gravity. Returns the tool
   /// point.
   Eigen::Vector3d Load(const Eigen::Vector3d& tip_force_N, bool gravity);
 
   /// Modes at the last equilibrium: frequencies in Hz, ascending.
   const std::vector<double>& frequency_hz() const;
 
-  /// Points of the centre line from base to tool point, base frame: every joint, every member's ends and
+  /// Points of the centre line from base to tool point, world frame: every joint, every member's ends and
   /// `samples` points inside each element. The same points in the same order in the three of them.
   std::vector<Eigen::Vector3d> Undeformed(int samples = 8);
   std::vector<Eigen::Vector3d> Deformed(int samples = 8);

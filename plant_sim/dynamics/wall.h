@@ -1,7 +1,7 @@
 // A compliant half-space that the tool point may press on.
 //   normal    f = max(0, k δ + d δ') for a penetration δ > 0: a spring-damper that never pulls
 //   friction  -μ f s(|v_t|/v_s) v_t/|v_t|, Coulomb, smoothed around rest: s(x) = x (2 - x) below 1 and 1 above
-// E_p of the wall: 1/2 k δ². Forces act on the robot. n points from the wall to the robot. Base frame.
+// E_p of the wall: 1/2 k δ². Forces act on the robot. n points from the wall to the robot. World frame.
 // RT: safe.
 #pragma once
 

@@ -44,7 +44,8 @@ def changed(text, old, new):
 # what is written instead, the line that is named, and words of the message
 ARM_DEFECTS = {
     "a missing row": ("  [0.0, 0.35, 0.0],\n", "", "[[bodies]]", ["arm.bodies", "5 bodies for 4 joints"]),
-    "a row too long": ("[0.0, 0.35, 0.0],", "[0.0, 0.35, 0.0, 1.0],", "0.35, 0.0, 1.0", ["arm.dh[2]", "3 numbers"]),
+    "a row too long": ("[0.0, 0.35, 0.0],", "[0.0, 0.35, 0.0, 0.1, 1.0],", "0.35, 0.0, 0.1", ["arm.dh[2]", "3 or 4 numbers"]),
+    "an offset in degrees": ("[0.0, 0.35, 0.0],", "[0.0, 0.35, 0.0, 90.0],", "90.0", ["arm.dh[2]", "radians"]),
     "millimetres": ("[0.0, 0.35, 0.0],", "[0.0, 350.0, 0.0],", "350.0", ["arm.dh[2]", "metres"]),
     "degrees": ("[-1.5707963267948966, 0.0, 0.15],", "[-90.0, 0.0, 0.15],", "-90.0", ["arm.dh[4]", "radians"]),
     "a zero length": ("length = 0.35 ", "length = 0.0 ", "length = 0.0 ", ["arm.sections[1].length", "1e-04 ... 20 m"]),
@@ -182,6 +183,66 @@ def test_a_json_arm_without_limits_runs_with_careful_ones(tmp_path):
     for key in ("dh", "torque_limit", "joint_stiffness"):
         assert arm[key] == given[key]
     assert arm["truth"]["p"] == given["p_true"]
+
+
+def a5_of_joints():
+    """Its drives and bodies on a skew chain with rigid links."""
+    arm = tomllib.loads(ARM)
+    for key in ("dh", "tool_offset", "sections", "param_names", "param_shapes", "p_true", "p_nom", "p_lo", "p_hi"):
+        del arm[key]
+    return arm | {"joint": [{"name": f"j{i + 1}", "frame": f"l{i + 1}", "xyz_m": [0.1, 0.02, 0.3], "rpy_rad": [0.4 * i, -0.2, 1.1]} for i in range(5)],
+                  "base": {"xyz_m": [0.0, 0.0, 0.8], "rpy_rad": [3.141592653589793, 0.0, 0.0]}, "tool": {"xyz_m": [0.0, 0.0, 0.08], "rpy_rad": [0.0, 1.5707963267948966, 0.0]}}
+
+
+def test_joints_base_and_tool_read_back_as_they_were_written(tmp_path):
+    arm = a5_of_joints()
+    path, first, second = tmp_path / "arm.json", tmp_path / "first.toml", tmp_path / "second.toml"
+    path.write_text(json.dumps(arm))
+    flat = ("--set", "wall.present=false", "--set", 'force.source="none"', "--set", "reference.legs=[]", "--set", "arm.torque_limit=100.0")
+    assert run("--arm", str(path), *flat, "--write", str(first)) == (0, "")
+    effective = tomllib.loads(first.read_text())["arm"]
+    for key in ("joint", "base", "tool"):
+        assert effective[key] == arm[key]
+    assert "dh" not in effective and "sections" not in effective
+    assert run("--config", str(first), "--write", str(second)) == (0, "")
+    assert second.read_text() == first.read_text()
+
+
+def test_reach_is_measured_from_the_base():
+    moved = ("--set", "arm.base.xyz_m=[0, 0, 5]")
+    assert "the wall is 4.844 m away" in refused(*moved)
+    assert run(*moved, "--set", "wall.point_m=[0.4, 0.0, 5.156]") == (0, "")
+
+
+JOINT_DEFECTS = {
+    "a prismatic joint": (lambda arm: arm["joint"][2].update(type="prismatic"), ["arm.joint[2].type", "'prismatic'", "allowed: revolute"]),
+    "a joint that follows another": (lambda arm: arm["joint"][2].update(mimic="j1"), ["arm.joint[2].mimic", "unknown key", "xyz_m"]),
+    "an axis of its own": (lambda arm: arm["joint"][2].update(axis=[0, 1, 0]), ["arm.joint[2].axis", "unknown key", "rpy_rad"]),
+    "a frame that two joints move": (lambda arm: arm["joint"][2].update(frame="l1"), ["arm.joint[2].frame", "'l1' is given twice", "serial"]),
+    "a joint's name twice": (lambda arm: arm["joint"][2].update(name="j1"), ["arm.joint[2].name", "'j1' is given twice"]),
+    "a name that is not ASCII": (lambda arm: arm["joint"][2].update(frame="épaule"), ["arm.joint[2].frame", "ASCII"]),
+    "millimetres": (lambda arm: arm["joint"][1].update(xyz_m=[0, 0, 425]), ["arm.joint[1].xyz_m[2]", "10 m"]),
+    "degrees": (lambda arm: arm["joint"][1].update(rpy_rad=[0, 0, 90]), ["arm.joint[1].rpy_rad[2]", "rad"]),
+    "too many joints": (lambda arm: arm["joint"].extend([{}] * 4), ["arm.joint", "9 joints", "1 ... 8"]),
+    "no joints": (lambda arm: arm["joint"].clear(), ["arm.joint", "missing"]),
+    "rows beside joints": (lambda arm: arm.update(dh=[[0, 0, 0]] * 5), ["arm.dh", "one of them"]),
+    "a tool given twice": (lambda arm: arm.update(tool_offset=[0, 0, 0.1]), ["arm.tool_offset", "twice", "arm.tool.xyz_m"]),
+    "a base that is no section": (lambda arm: arm.update(base=[0, 0, 0]), ["arm.base", "expected a section"]),
+    "sections beside links that are skew": (lambda arm: arm.update(sections=tomllib.loads(ARM)["sections"]), ["arm.sections", "joint 1", "allowed"]),
+}
+
+
+@pytest.mark.parametrize("defect", JOINT_DEFECTS)
+def test_an_arm_of_joints_with(defect, tmp_path):
+    change, words = JOINT_DEFECTS[defect]
+    arm = a5_of_joints()
+    change(arm)
+    path = tmp_path / "arm.json"
+    path.write_text(json.dumps(arm, indent=1))
+    error = refused("--arm", str(path))
+    assert error.startswith(f"{path}:"), error
+    for word in words:
+        assert word in error, error
 
 
 @pytest.mark.parametrize("key", ["rotor_inertia_reflected", "joint_stiffness", "torque_limit"])

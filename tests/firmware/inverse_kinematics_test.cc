@@ -10,7 +10,7 @@ namespace {
 
 template <int N>
 double TurnedBy(const model::Kinematics<N>& a, const model::Kinematics<N>& b) {
-  return RotationError(a.R_tip(), b.R_tip()).norm();
+  return RotationError(a.R_last(), b.R_last()).norm();
 }
 
 TEST(InverseKinematics, SevenJointsReachTipAndOrientation) {
@@ -18,7 +18,7 @@ TEST(InverseKinematics, SevenJointsReachTipAndOrientation) {
   const model::Kinematics<7> start = bench.At(PoseA7());
   for (const Eigen::Vector3d& by :
        {Eigen::Vector3d(0.05, 0, 0), Eigen::Vector3d(0, -0.08, 0.02), Eigen::Vector3d(-0.03, 0.04, -0.1)}) {
-    const auto q = SolveInverseKinematics<7>(bench.pose_of(), start.tip + by, start.R_tip(), PoseA7());
+    const auto q = SolveInverseKinematics<7>(bench.pose_of(), start.tip + by, start.R_last(), PoseA7());
     EXPECT_LT((bench.At(q).tip - start.tip - by).norm(), 1e-12);
     EXPECT_LT(TurnedBy<7>(start, bench.At(q)), 1e-5);
   }
@@ -29,7 +29,7 @@ TEST(InverseKinematics, FiveJointsReachTheTipAndKeepTheHandPointingWhereItPointe
   const model::Kinematics<5> start = bench.At(PoseA5());
   for (const Eigen::Vector3d& by :
        {Eigen::Vector3d(0.03, 0, 0), Eigen::Vector3d(0, 0.03, 0.01), Eigen::Vector3d(0, 0, -0.03)}) {
-    const auto q = SolveInverseKinematics<5>(bench.pose_of(), start.tip + by, start.R_tip(), PoseA5());
+    const auto q = SolveInverseKinematics<5>(bench.pose_of(), start.tip + by, start.R_last(), PoseA5());
     EXPECT_LT((bench.At(q).tip - start.tip - by).norm(), 1e-12);
     // Two axes stay in the plane through the base axis: the hand's own turn about that axis is not free. What
     // remains is at most the turn of that plane.
@@ -43,7 +43,7 @@ TEST(InverseKinematics, TwoJointsInAPlaneReachTheTip) {
   const Bench<2> bench(test::ArmP2());
   const model::Vec<2> q_0(0.4, 1.1);
   const Eigen::Vector3d goal = bench.At(q_0).tip + Eigen::Vector3d(0.1, 0.0, -0.15);
-  const auto q = SolveInverseKinematics<2>(bench.pose_of(), goal, bench.At(q_0).R_tip(), q_0);
+  const auto q = SolveInverseKinematics<2>(bench.pose_of(), goal, bench.At(q_0).R_last(), q_0);
   EXPECT_LT((bench.At(q).tip - goal).norm(), 1e-12);
 }
 

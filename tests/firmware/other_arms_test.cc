@@ -100,8 +100,8 @@ Scenario HeavyArm() {
   Scenario scenario = LoadScenario("joints2");
   scenario.duration_s = 1.0;
   ArmDescription& arm = scenario.arm;
-  arm.dh = {{1.5707963267948966, 0.0, 0.0}, {0.0, 1.2, 0.0}};
-  arm.tool_offset_m = {1.0, 0.0, 0.0};
+  arm.joints = JointsOf({{1.5707963267948966, 0.0, 0.0}, {0.0, 1.2, 0.0}});
+  arm.tool.xyz_m = {1.0, 0.0, 0.0};
   arm.rotor_inertia_kgm2 = {40.0, 30.0};
   arm.joint_stiffness_Nmprad = {2e6, 1e6};
   arm.coulomb_Nm.clear();

@@ -77,8 +77,8 @@ TEST(SerialCompliance, AStraightArmIsOneCantilever) {
   // beam.
   ArmDescription description = test::ArmA5();
   for (BeamSection& section : description.sections) section = {section.length_m, 1e6, 400.0, 300.0, 0.0};
-  description.dh[0].d_m = 0.0;
-  description.dh[4].d_m = 0.0;
+  description.joints[0].d_m = 0.0;
+  description.joints[4].d_m = 0.0;
   description.sections = {description.sections[1], description.sections[2]};
   const test::ModelArm<5, 6> arm(description);
   Kinematics<5> kin;

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_arms import made_arm
+from made_arms import made_arm, made_chain
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -49,9 +49,14 @@ MADE_ARMS = [made_arm("odd_twists", 61, [0.4, -1.1, 2.3, 0.7, -0.6, 1.9]),
              made_arm("six_square", 62, [0.0, -np.pi / 2, 0.0, np.pi / 2, -np.pi / 2, np.pi / 2])]
 
 
-@pytest.fixture(params=["a5", "a7", "p2", "odd_twists", "six_square"])
+OFFSET_ROWS = made_arm("offset_rows", 63, [0.4, -1.1, 2.3, 0.7, -0.6, 1.9])  # joint offsets in the fourth column
+OFFSET_ROWS["dh"] = [[*row, 0.3 * i - 0.8] for i, row in enumerate(OFFSET_ROWS["dh"])]
+CHAINS = [made_chain(joints, 70 + joints) for joints in range(2, 9)]
+
+
+@pytest.fixture(params=["a5", "a7", "p2", "odd_twists", "six_square", "offset_rows", *(chain["name"] for chain in CHAINS)])
 def arm(request):
-    made = {made["name"]: made for made in MADE_ARMS}
+    made = {made["name"]: made for made in (*MADE_ARMS, OFFSET_ROWS, *CHAINS)}
     return made.get(request.param) or load_arm(request.param)
 
 

@@ -9,10 +9,10 @@
 namespace reed::model {
 namespace {
 
-Eigen::Matrix4d Craig(const DhRow& row, double theta) {
+Eigen::Matrix4d Craig(const Joint& row, double theta) {
   Eigen::Affine3d T = Eigen::Affine3d::Identity();
-  T.rotate(Eigen::AngleAxisd(row.alpha_rad, Eigen::Vector3d::UnitX()));
-  T.translate(Eigen::Vector3d(row.a_m, 0.0, 0.0));
+  T.rotate(Eigen::AngleAxisd(row.rpy_rad.x(), Eigen::Vector3d::UnitX()));
+  T.translate(Eigen::Vector3d(row.xyz_m.x(), 0.0, 0.0));
   T.rotate(Eigen::AngleAxisd(theta, Eigen::Vector3d::UnitZ()));
   T.translate(Eigen::Vector3d(0.0, 0.0, row.d_m));
   return T.matrix();
@@ -37,11 +37,11 @@ TEST_F(SkewArmKinematics, EveryLinkStandsWhereTheCraigMatricesPutIt) {
     const Kinematics<6> kin = At(q, Vec<6>::Zero());
     Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
     for (int i = 0; i < 6; ++i) {
-      T = (T * Craig(description_.dh[static_cast<std::size_t>(i)], q(i))).eval();
+      T = (T * Craig(description_.joints[static_cast<std::size_t>(i)], q(i))).eval();
       EXPECT_NEAR((T.topLeftCorner<3, 3>() - kin.R[i]).norm(), 0.0, 1e-14);
       EXPECT_NEAR((T.topRightCorner<3, 1>() - kin.p[i]).norm(), 0.0, 1e-14);
     }
-    const Eigen::Vector4d tool = T * description_.tool_offset_m.homogeneous();
+    const Eigen::Vector4d tool = T * description_.tool.xyz_m.homogeneous();
     EXPECT_NEAR((tool.head<3>() - kin.tip).norm(), 0.0, 1e-14);
   }
 }
@@ -54,7 +54,7 @@ TEST_F(SkewArmKinematics, TheJacobianIsTheDerivativeOfThePose) {
     for (int i = 0; i < 6; ++i) {
       const Kinematics<6> hi = At(q + h * Vec<6>::Unit(i), Vec<6>::Zero()),
                           lo = At(q - h * Vec<6>::Unit(i), Vec<6>::Zero());
-      const Eigen::Matrix3d spin = (hi.R_tip() - lo.R_tip()) / (2.0 * h) * kin.R_tip().transpose();
+      const Eigen::Matrix3d spin = (hi.R_last() - lo.R_last()) / (2.0 * h) * kin.R_last().transpose();
       EXPECT_NEAR(((hi.tip - lo.tip) / (2.0 * h) - kin.J.col(i).head<3>()).norm(), 0.0, 1e-9);
       EXPECT_NEAR((0.5 * Vee(spin) - kin.J.col(i).tail<3>()).norm(), 0.0, 1e-9);
     }
@@ -95,7 +95,7 @@ TEST(Pose, FiveJointsReachOnlyFiveOfSixDirections) {  // (3)
   ForwardKinematics<5>(arm, Vec<5>(0.3, 0.7, -1.1, 0.4, 0.2), Vec<5>::Zero(), kin);
   EXPECT_LT((kin.J * kin.J.transpose()).determinant(), 1e-18);
   EXPECT_GT((kin.J.transpose() * kin.J).determinant(), 1e-6);
-  EXPECT_EQ(Pose(kin).head<3>(), kin.tip);
+  EXPECT_EQ(Pose(arm, kin).head<3>(), kin.tip);
 }
 
 }  // namespace

@@ -30,10 +30,14 @@ class Draw {
 inline ArmDescription SkewArm() {
   ArmDescription arm;
   arm.name = "skew6";
-  arm.dh = {{0.3, 0.0, 0.25},   {-1.2, 0.1, -0.05}, {0.7, 0.3, 0.0},
-            {1.5, -0.08, 0.28}, {-0.9, 0.0, 0.0},   {0.4, 0.0, 0.1}};
+  arm.joints = JointsOf({{0.3, 0.0, 0.25},
+                         {-1.2, 0.1, -0.05},
+                         {0.7, 0.3, 0.0},
+                         {1.5, -0.08, 0.28},
+                         {-0.9, 0.0, 0.0},
+                         {0.4, 0.0, 0.1}});
   arm.gravity_mps2 = Vector3d(1.0, -2.0, -9.5);
-  arm.tool_offset_m = Vector3d(0.02, -0.03, 0.11);
+  arm.tool.xyz_m = Vector3d(0.02, -0.03, 0.11);
   for (int i = 0; i < 6; ++i) {
     const double m = 2.5 - 0.35 * i;
     arm.bodies.push_back({m, Vector3d(0.02 * i, -0.03, 0.05 - 0.01 * i),

@@ -16,7 +16,7 @@ TrueArm RegularArm() {
   TrueArm arm = TrueOf(test::ArmA5());
   arm.bodies[0] = {2.0, {0.02, -0.01, -0.08}, Eigen::Vector3d(0.12, 0.13, 0.15).asDiagonal()};
   arm.bodies[3] = {0.2, {0.01, 0.0, 0.02}, 1e-3 * Eigen::Matrix3d::Identity()};
-  arm.tool_offset_m = {0.03, 0.01, 0.05};
+  arm.tool.xyz_m = {0.03, 0.01, 0.05};
   arm.joint_hardening_Nmprad3 = {2e6, 2e6, 1e6, 1e6, 1e6};
   arm.gravity_mps2 = {1.0, -2.0, -9.0};
   return arm;

@@ -36,8 +36,9 @@ void PrintList(const char* name, const Sequence& values, const char* end) {
 void PrintArm() {
   const reed::ArmDescription arm = reed::test::ArmA5();
   std::printf("{\"dh\": [");
-  for (std::size_t i = 0; i < arm.dh.size(); ++i)
-    std::printf("%s[%.17g, %.17g, %.17g]", i ? ", " : "", arm.dh[i].alpha_rad, arm.dh[i].a_m, arm.dh[i].d_m);
+  for (std::size_t i = 0; i < arm.joints.size(); ++i)
+    std::printf("%s[%.17g, %.17g, %.17g]", i ? ", " : "", arm.joints[i].rpy_rad.x(), arm.joints[i].xyz_m.x(),
+                arm.joints[i].d_m);
   std::printf("], \"bodies\": [");
   for (std::size_t i = 0; i < arm.bodies.size(); ++i) {
     const reed::InertialBody& body = arm.bodies[i];
@@ -110,7 +111,7 @@ reed::TrueArm Zigzag(int joints) {
   reed::TrueArm arm;
   arm.name = "zigzag";
   for (int i = 0; i < joints; ++i) {
-    arm.dh.push_back({i % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi, 0.0, kLength});
+    arm.joints.push_back(reed::JointOf({i % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi, 0.0, kLength}));
     arm.bodies.push_back(
         {kMass, {0.0, 0.0, -0.5 * kLength}, Eigen::Vector3d(kAcross, kAcross, 5e-4).asDiagonal()});
     arm.sections.push_back({kLength, 1e7, 800.0, 600.0, kMass / kLength});

@@ -21,7 +21,7 @@ PlantConfig Turntable(int elements) {
   PlantConfig scene;
   scene.arm.name = "turntable";
   scene.arm.gravity_mps2.setZero();
-  scene.arm.dh = {{0.0, 0.0, 0.0}, {0.0, kLength, 0.0}};
+  scene.arm.joints = JointsOf({{0.0, 0.0, 0.0}, {0.0, kLength, 0.0}});
   const double mass = kRhoA * kLength, inertia = mass * kLength * kLength / 12.0;
   scene.arm.bodies = {{mass, {0.5 * kLength, 0.0, 0.0}, Eigen::Vector3d(0.0, inertia, inertia).asDiagonal()},
                       {}};

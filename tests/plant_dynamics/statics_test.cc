@@ -30,12 +30,12 @@ struct Frame {
     Vector3d p = Vector3d::Zero();
     std::size_t section = 0;
     for (std::size_t i = 0; i < 5; ++i) {
-      R = R * Eigen::AngleAxisd(arm.dh[i].alpha_rad, Vector3d::UnitX());
+      R = R * Eigen::AngleAxisd(arm.joints[i].rpy_rad.x(), Vector3d::UnitX());
       R = R * Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], Vector3d::UnitZ());
       joint_at.push_back(p);
       joint_axis.push_back(R.col(2));
       joint_first_member.push_back(static_cast<int>(section));
-      const double d = arm.dh[i].d_m, a = i < 4 ? arm.dh[i + 1].a_m : 0.0;
+      const double d = arm.joints[i].d_m, a = i < 4 ? arm.joints[i + 1].xyz_m.x() : 0.0;
       if (d == 0.0 && a == 0.0) continue;
       const Vector3d along = d != 0.0 ? Vector3d(R.col(2)) : Vector3d(R.col(0));
       const BeamSection& s = arm.sections[section];

@@ -105,7 +105,7 @@ class DriveChainTest : public ::testing::Test {
  protected:
   static TrueArm TwoJoints() {
     TrueArm arm;
-    arm.dh.resize(2);
+    arm.joints.resize(2);
     arm.torque_limit_Nm = {40.0, 8.0};
     return arm;
   }

@@ -135,7 +135,7 @@ class FakeController {
 inline PlantConfig TwoJointScenario() {
   PlantConfig scenario;
   scenario.arm.name = "rotors";
-  scenario.arm.dh.resize(2);
+  scenario.arm.joints.resize(2);
   scenario.arm.torque_limit_Nm = {40.0, 8.0};
   scenario.start_rad = {0.25, -1.0};
   return scenario;

@@ -165,7 +165,7 @@ def test_viewers_see_the_true_arm_its_frames_the_wall_the_force_and_the_events(m
         if arrows:
             pressed += 1
             assert arrows[0].shaft_length == pytest.approx(0.01 * size_N)
-            q = arrows[0].pose.orientation  # x axis of the arrow in base axes
+            q = arrows[0].pose.orientation  # x axis of the arrow in world axes
             direction = (1 - 2 * (q.y**2 + q.z**2), 2 * (q.x * q.y + q.w * q.z), 2 * (q.x * q.z - q.w * q.y))
             assert direction == pytest.approx(np.array(plant.contact_force) / size_N)
         assert end_of_chain(frames) == pytest.approx(tip_of_a5(measured_at(messages, shape.cycle)), abs=1e-12)

@@ -34,6 +34,7 @@ void PutCompliance(const Arm<N>& arm, const model::Kinematics<N>& kin, NamedValu
 template <int N>
 void PutNodes(const std::string& name, const Arm<N>& arm, const model::Kinematics<N>& kin,
               const model::StructuralLoads<N>& loads, model::JointModel joints, NamedValues& out) {
+  if (arm.num_members == 0) return;
   const auto node = model::NodeDeflections(arm, kin, model::DeflectSerially(arm, kin, loads), joints);
   const model::ArmStructure structure = model::StructureOf(arm, kin, loads, joints);
   const auto solution = structure.matrix.Solve();
@@ -89,7 +90,7 @@ void InspectElastic(const Arm<N>& arm, const NamedValues& in, NamedValues& out) 
   model::Kinematics<N> kin;
   model::ForwardKinematics<N>(arm, in.Vector<N>("q"), model::Vec<N>::Zero(), kin);
   PutCompliance(arm, kin, out);
-  if (arm.num_members == 0) return;
+  if (arm.num_members == 0 && !arm.joint_stiffness.allFinite()) return;
   if (in.Has("wrench_world_tip")) PutDeflections(arm, kin, in, out);
   if (arm.joint_stiffness.allFinite()) PutSag(arm, kin, out);
 }

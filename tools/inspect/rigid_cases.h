@@ -24,17 +24,17 @@ struct Arm : model::ArmModel<N, kMaxParameters> {
 
 /// q → pose and Jacobian.
 template <int N>
-void PutPose(const model::Kinematics<N>& kin, NamedValues& out) {
+void PutPose(const Arm<N>& arm, const model::Kinematics<N>& kin, NamedValues& out) {
+  const Eigen::Matrix3d R = model::TipRotation(arm, kin);
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-  T.topLeftCorner<3, 3>() = kin.R_tip();
+  T.topLeftCorner<3, 3>() = R;
   T.topRightCorner<3, 1>() = kin.tip;
   out.SetMatrix("T", T);
   out.SetVector("tip_xyz", kin.tip);
-  out.SetVector("euler_alpha_beta_gamma", model::EulerAngles(kin.R_tip()));
+  out.SetVector("euler_alpha_beta_gamma", model::EulerAngles(R));
   out.SetMatrix("J_world_lin_ang", kin.J);
   model::Mat<6, N> J_body;
-  J_body << kin.R_tip().transpose() * kin.J.template topRows<3>(),
-      kin.R_tip().transpose() * kin.J.template bottomRows<3>();
+  J_body << R.transpose() * kin.J.template topRows<3>(), R.transpose() * kin.J.template bottomRows<3>();
   out.SetMatrix("J_body_lin_ang", J_body);
   if (N == 2) {
     model::Mat<2, N> J_xz;
@@ -94,7 +94,7 @@ void InspectRigid(const Arm<N>& arm, const NamedValues& in, NamedValues& out) {
   const bool moving = in.Has("qd");
   model::Kinematics<N> kin;
   model::ForwardKinematics<N>(arm, q, moving ? in.Vector<N>("qd") : model::Vec<N>::Zero(), kin);
-  PutPose(kin, out);
+  PutPose(arm, kin, out);
   if (moving) PutDynamics(arm, kin, in, out);
   if (moving && in.HasAll("v", "vd")) PutRegressor(arm, kin, in, out);
   if (in.Has("wrench_world_at_tip")) PutExternalTorque(kin, in, out);

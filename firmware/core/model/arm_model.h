@@ -38,10 +38,13 @@ template <int N, int P>
 struct ArmModel {
   static constexpr int kMaxMembers = 2 * N;
 
-  // Craig DH (1): T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta) Tz(d).
-  Vec<N> cos_alpha, sin_alpha, a, d;
-  Eigen::Vector3d gravity;      // base frame
-  Eigen::Vector3d tool_offset;  // last link frame
+  // (1) for any fixed transform: T_{i-1,i} = T(mount_p, mount_R) Rz(theta) Tz(d); i = 1 includes the base in the world.
+  FixedArray<Eigen::Matrix3d, N> mount_R;  // columns: axes of the joint at theta = 0, in link i-1
+  FixedArray<Eigen::Vector3d, N> mount_p;  // a point of its axis, in link i-1
+  Vec<N> d;                                // from there along z to the origin of link i
+  Eigen::Vector3d gravity;                 // world frame
+  Eigen::Vector3d tool_offset;             // last link frame
+  Eigen::Matrix3d tool_rotation;           // columns: axes of the tool's frame, in the last link
 
   // Bodies: shapes of link b are shape[first_shape[b]] ... shape[first_shape[b + 1] - 1].
   FixedArray<UnitShape, N*(P + 1)> shape;

@@ -1,5 +1,5 @@
 // Static deflection of the arm as a serial chain: the result of (4)-(6) for a chain, in O(N) and without a matrix.
-// Base axes, SI. Small displacement u and small rotation phi. RT: safe.
+// World axes, SI. Small displacement u and small rotation phi. RT: safe.
 #pragma once
 
 #include <Eigen/Core>

@@ -30,7 +30,7 @@ Vec<N> ViscousFriction(const ArmModel<N, P>& arm, const Vec<P>& p) {
   return arm.viscous * p;
 }
 
-/// Moves a wrench from the origin and axes of link i to the tool point and base axes.
+/// Moves a wrench from the origin and axes of link i to the tool point and world axes.
 template <int N>
 Wrench AtTip(const Kinematics<N>& kin, int i, const Wrench& link) {
   const Eigen::Vector3d F = kin.R[i] * link.F;
@@ -102,7 +102,7 @@ Vec<N> GravityTorque(const Bodies<N>& bodies, const Kinematics<N>& kin, const Ei
 template <int N>
 Mat<N, N> MassMatrix(const Bodies<N>& bodies, const Kinematics<N>& kin) {
   Mat<N, N> M;
-  MassMoments composite;  // links i ... N-1 about the tool point, base axes
+  MassMoments composite;  // links i ... N-1 about the tool point, world axes
   for (int i = N - 1; i >= 0; --i) {
     const MassMoments& body = bodies.link[i];
     const Eigen::Vector3d r = kin.p[i] - kin.tip;

@@ -1,4 +1,4 @@
-// (1)-(3): pose and velocity of every link and of the tool point, in one forward pass over the joints. Base axes, SI.
+// (1)-(3): pose and velocity of every link and of the tool point, in one forward pass over the joints. World axes, SI.
 // RT: safe.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Kinematics {
   Mat<6, N> J;                           // tool point, rows linear then angular
   Vec6 Jdot_qd;  // acceleration of the tool point at zero joint acceleration, linear then angular
 
-  const Eigen::Matrix3d& R_tip() const { return R[N - 1]; }
+  const Eigen::Matrix3d& R_last() const { return R[N - 1]; }
   Vec6 tip_velocity() const { return J * qd; }
 };
 
@@ -38,11 +38,15 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
   for (int i = 0; i < N; ++i) {
     // clang-format off
     const double c = std::cos(q(i)), s = std::sin(q(i));
-    const Vector3d y_twisted = arm.cos_alpha(i) * y + arm.sin_alpha(i) * z;      // (1) Rx(alpha)
-    z = arm.cos_alpha(i) * z - arm.sin_alpha(i) * y;
-    const Vector3d r = arm.a(i) * x + arm.d(i) * z;                              // (1) Tx(a), Tz(d): origin i-1 to i
-    y = c * y_twisted - s * x;                                                   // (1) Rz(theta)
-    x = c * x + s * y_twisted;
+    const Eigen::Matrix3d& A = arm.mount_R[i];
+    const Vector3d& m = arm.mount_p[i];
+    const Vector3d mount = m.x() * x + m.y() * y + m.z() * z;                    // (1) origin of link i-1 to the joint
+    const Vector3d x_mount = A(0, 0) * x + A(1, 0) * y + A(2, 0) * z;            // (1) the joint's axes at theta = 0
+    const Vector3d y_mount = A(0, 1) * x + A(1, 1) * y + A(2, 1) * z;
+    z = A(0, 2) * x + A(1, 2) * y + A(2, 2) * z;
+    const Vector3d r = mount + arm.d(i) * z;                                     // (1) Tz(d): origin of i-1 to that of i
+    y = c * y_mount - s * x_mount;                                               // (1) Rz(theta)
+    x = c * x_mount + s * y_mount;
     const Vector3d omega_r = omega.cross(r);
     p += r;
     v += omega_r;
@@ -64,18 +68,24 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
   }
 }
 
-/// (2) alpha, beta, gamma about x, y, z of the base: R = Rz(gamma) Ry(beta) Rx(alpha).
+/// (2) alpha, beta, gamma about x, y, z of the world: R = Rz(gamma) Ry(beta) Rx(alpha).
 inline Eigen::Vector3d EulerAngles(const Eigen::Matrix3d& R) {
   return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
           std::atan2(R(1, 0), R(0, 0))};
 }
 
+/// Columns: axes of the tool's frame.
+template <int N, int P>
+Eigen::Matrix3d TipRotation(const ArmModel<N, P>& arm, const Kinematics<N>& kin) {
+  return kin.R_last() * arm.tool_rotation;
+}
+
 /// (3) joint angles to x, y, z, alpha, beta, gamma. Rank of the map: at most N, so five joints do not reach
 /// every pose.
-template <int N>
-Vec6 Pose(const Kinematics<N>& kin) {
+template <int N, int P>
+Vec6 Pose(const ArmModel<N, P>& arm, const Kinematics<N>& kin) {
   Vec6 pose;
-  pose << kin.tip, EulerAngles(kin.R_tip());
+  pose << kin.tip, EulerAngles(TipRotation(arm, kin));
   return pose;
 }
 

@@ -34,7 +34,7 @@ void PolarisedFields(const Kinematics<N>& kin, const Vec<N>& v, const Vec<N>& v_
                      const Eigen::Vector3d& gravity, FixedArray<LinkField, N>& field) {
   using Eigen::Vector3d;
   Vector3d p = Vector3d::Zero(), a = -gravity;
-  Vector3d w1 = Vector3d::Zero(), w2 = Vector3d::Zero(), alpha = Vector3d::Zero();  // of link i-1, base axes
+  Vector3d w1 = Vector3d::Zero(), w2 = Vector3d::Zero(), alpha = Vector3d::Zero();  // of link i-1, world axes
   for (int i = 0; i < N; ++i) {
     const Vector3d z = kin.R[i].col(2);
     const Vector3d r = kin.p[i] - p;

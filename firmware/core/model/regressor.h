@@ -23,7 +23,7 @@ void ComputeRegressor(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const
   FixedArray<LinkField, N> field;
   PolarisedFields(kin, v, v_dot, arm.gravity, field);
 
-  // Column k of W: wrench that one unit of parameter k on the links i ... N-1 needs, base axes, moment about
+  // Column k of W: wrench that one unit of parameter k on the links i ... N-1 needs, world axes, moment about
   // the tool point, so that the torque of joint i is J_iᵀ W. Column P: the known part.
   Eigen::Matrix<double, 6, P + 1, Eigen::RowMajor> W =
       Eigen::Matrix<double, 6, P + 1, Eigen::RowMajor>::Zero();

@@ -40,7 +40,7 @@ Vec<N> DampedInverse(const Mat<6, N>& J, const Eigen::Vector3d& u, double lambda
 }
 
 /// Static deflection at the state of `kin` (θ_plan, or θ nearby) under the weight of `bodies` and
-/// `tip_wrench`, the environment's wrench on the tool point (force, moment about it; base axes).
+/// `tip_wrench`, the environment's wrench on the tool point (force, moment about it; world axes).
 template <int N, int P>
 StaticDeflection<N> CompensateDeflection(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
                                          const Bodies<N>& bodies, const Wrench& tip_wrench) {

@@ -1,5 +1,5 @@
 // What pulls on the elastic structure: a wrench at the tool point and the weight of the links, spread over
-// the members. The direct stiffness method and the serial form take the same loads. Base axes, SI. RT: safe.
+// the members. The direct stiffness method and the serial form take the same loads. World axes, SI. RT: safe.
 #pragma once
 
 #include <Eigen/Core>

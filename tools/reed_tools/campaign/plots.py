@@ -8,6 +8,7 @@ from reed_tools.campaign import results
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
 from reed_tools.figures.parameter_units import unit_of
+from reed_tools.robots.joint_frames import dof
 from reed_tools.show.drawing import COLOURS, STYLE, WIDTH_IN, plt, set_margins, ticker
 
 BINS = 30
@@ -59,7 +60,7 @@ def entry_name(key: str, position: int, arm: dict) -> str:
     names = arm["param_names"]
     if key in ("plant.p_true", *(f"arm.p_{end}" for end in ("true", "nom", "lo", "hi"))) and position < len(names):
         return f"{key}: {names[position]} [{unit_of(arm, names[position])}]"
-    return f"{key}: joint {position + 1}" if position < len(arm["dh"]) else f"{key}: {position + 1}"
+    return f"{key}: joint {position + 1}" if position < dof(arm) else f"{key}: {position + 1}"
 
 
 def drawn_numbers(campaign: Campaign, records: list[Record], arm: dict) -> dict[str, np.ndarray]:

@@ -53,9 +53,9 @@ def frames(recording: Recording, effective: dict) -> Made:
 
     def message(n: int) -> FrameTransforms:
         made, parent, time = FrameTransforms(), BASE, stamp(times_ns[n])
-        for joint, (p, q) in enumerate(joint_transforms(effective["arm"], measured["position"][at_measured[n]])):
-            made.transforms.append(transform(time, parent, f"link_{joint + 1}", p, q))
-            parent = f"link_{joint + 1}"
+        for frame, p, q in joint_transforms(effective["arm"], measured["position"][at_measured[n]]):
+            made.transforms.append(transform(time, parent, frame, p, q))
+            parent = frame
         made.transforms.append(transform(time, BASE, "true_tip", plant["tip"][at_plant[n]], (1.0, 0.0, 0.0, 0.0)))
         return made
 

@@ -14,7 +14,7 @@ MOST_FRAMES = 900
 def frames_of(recording: Recording, signals: Signals | None, effective: dict) -> tuple[np.ndarray, arm_frames.ArmFrames] | None:
     """(t in s since the arm became active, frames); None without a record of the arm's shape."""
     arm = effective["arm"]
-    if signals is None or signals.dof != len(arm["dh"]) or (frames := arm_frames.of(recording, arm)) is None:
+    if signals is None or signals.dof != joint_frames.dof(arm) or (frames := arm_frames.of(recording, arm)) is None:
         return None
     kept = np.flatnonzero((frames.cycle >= signals.cycle[0]) & (frames.cycle <= signals.cycle[-1]))
     kept = kept[::1 + len(kept) // MOST_FRAMES]

@@ -15,6 +15,7 @@ import numpy as np
 
 from reed_tools.record.signals import SOURCES, Signals
 from reed_tools.robots import rigid_arm
+from reed_tools.robots.joint_frames import dof
 
 PAPER_GAMMA = {"known": 0.05, "unknown": 0.015}   # section 4.1 of the paper
 PAPER_SIGMA_RATE = 0.015
@@ -37,7 +38,7 @@ class Bookkeeping:
 def of_run(signals: Signals | None, effective: dict) -> Bookkeeping | None:
     """None where the law has no V, nothing was recorded, or the record is of another arm than the configuration. A run that changed its source is evaluated by (42) alone."""
     law = effective["control"]["law"]
-    if signals is None or law not in WITH_V or len(signals.t) < 3 or signals.dof != len(effective["arm"]["dh"]):
+    if signals is None or law not in WITH_V or len(signals.t) < 3 or signals.dof != dof(effective["arm"]):
         return None
     effective = {**effective, "arm": rigid_arm.true_arm(effective)}
     rows = slice(None, None, 1 + len(signals.t) // MOST_ROWS)

@@ -62,7 +62,7 @@ def tip_error(signals: Signals):
         axis.plot(signals.t, 1e3 * signals.tip_error[:, k], label=name)
     axis.plot(signals.t, 1e3 * np.linalg.norm(signals.tangential_tip, axis=1), color="black", linestyle=":",
               label="|tangential|")
-    axis.set_title("Tip error: true bent tip − planned tip, base axes", loc="left")
+    axis.set_title("Tip error: true bent tip − planned tip, world axes", loc="left")
     label_left(axis, "tip error [mm]")
     axis.set_xlabel(TIME)
     legend_right(figure, axis)

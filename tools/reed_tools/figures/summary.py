@@ -10,6 +10,7 @@ from reed_tools.record import configuration, run_folder
 from reed_tools.record.signals import Signals, join
 from reed_tools.record.telemetry_log import Recording
 from reed_tools.record.whole_file import write_text
+from reed_tools.robots.joint_frames import dof
 
 SCHEMA = 1
 
@@ -31,7 +32,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "schema": SCHEMA,
         "scenario": effective["scenario"]["name"],
         "arm": arm["name"],
-        "dof": len(arm["dh"]),
+        "dof": dof(arm),
         "seed": effective["scenario"]["seed"],
         "law": effective["control"]["law"],
         "config_sha256": hashlib.sha256((folder / "effective.toml").read_bytes()).hexdigest(),

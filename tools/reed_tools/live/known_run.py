@@ -8,6 +8,7 @@ from pathlib import Path
 from reed_tools.errors import ReedError
 from reed_tools.paths import CURRENT_RUN
 from reed_tools.record import configuration
+from reed_tools.robots import joint_frames
 
 
 def configuration_of(run, dof: int) -> dict | None:
@@ -32,4 +33,4 @@ def configuration_of(run, dof: int) -> dict | None:
 
 def fits(effective: dict, run, dof: int) -> bool:
     names = run is None or (effective["scenario"]["name"], effective["arm"]["name"]) == (run.scenario, run.arm)
-    return names and len(effective["arm"]["dh"]) == dof
+    return names and joint_frames.dof(effective["arm"]) == dof

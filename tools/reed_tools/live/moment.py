@@ -24,7 +24,7 @@ class Moment:
     theta_d: np.ndarray | None = None     # rad
     bent: np.ndarray | None = None        # m, [points, 3]
     rigid: np.ndarray | None = None       # m, the same points without bending
-    contact_force: np.ndarray = field(default_factory=lambda: np.zeros(3))  # N, on the robot, base axes
+    contact_force: np.ndarray = field(default_factory=lambda: np.zeros(3))  # N, on the robot, world axes
     ages: list[int] = field(default_factory=list)
     drives: list[int] = field(default_factory=list)
     missed: int = 0

@@ -11,6 +11,7 @@ from reed_tools.live.curves import History, rows
 from reed_tools.live.moment import Moment
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.telemetry_log import load
+from reed_tools.robots.joint_frames import dof
 
 if TYPE_CHECKING:  # it needs viser
     from reed_tools.live.page import Page
@@ -44,7 +45,7 @@ class Recorded:
         return moment
 
     def forever(self, page: "Page") -> None:
-        page.know(len(self.effective["arm"]["dh"]), self.parameters, self.effective)
+        page.know(dof(self.effective["arm"]), self.parameters, self.effective)
         at_s = page.server.gui.add_slider("time [s]", min=0.0, max=round(self.length_s, 3), step=0.001, initial_value=0.0, order=-2)
         play = page.server.gui.add_checkbox("play", True, order=-1)
         shown, drawn, drawn_at = None, None, 0.0

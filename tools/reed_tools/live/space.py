@@ -5,6 +5,7 @@ import viser
 
 from reed_tools.live.moment import Moment
 from reed_tools.robots.arm_lines import ARM_RGB, FORCE_RGB, GHOST_RGB, TRACE_RGB, WALL_RGB, arrow, centre_line, drawn, wall_plate
+from reed_tools.robots.joint_frames import dof
 
 ARM_m, GHOST_m, TRACE_m, ARROW_m, HEAD_m = 0.018, 0.008, 0.003, 0.006, 0.014
 TRACE_POINTS = 300
@@ -37,7 +38,7 @@ class Space:
         points = drawn(moment.rigid, moment.bent, scale)
         self.bent.points = segments(points)
         self.tip_frame.position = points[-1]
-        if self.arm and moment.theta_d is not None and len(self.arm["dh"]) == len(moment.theta_d):
+        if self.arm and moment.theta_d is not None and dof(self.arm) == len(moment.theta_d):
             self.ghost.points = segments(centre_line(self.arm, moment.theta_d[None])[0])
         ends = arrow(points[-1], moment.contact_force)
         self.force.visible = ends is not None

@@ -8,7 +8,7 @@ from reed_tools.errors import UsageError
 NUMBER = (int, float)
 NEEDED = {  # what figures, pictures and page are made from
     "scenario": {"name": str, "duration_s": NUMBER, "seed": int},
-    "arm": {"name": str, "dh": list, "param_names": list, "p_true": list, "p_lo": list, "p_hi": list, "torque_limit": list},
+    "arm": {"name": str, "param_names": list, "p_true": list, "p_lo": list, "p_hi": list, "torque_limit": list},
     "control": {"law": str, "sigma0_max": NUMBER, "sigma1_max": NUMBER},
     "timing": {"rate_hz": NUMBER},
 }
@@ -34,6 +34,8 @@ def first_problem(effective: dict) -> str | None:
         for key, kind in keys.items():
             if not isinstance(effective[section].get(key), kind):
                 return f"{section}.{key} is missing or of another type"
+    if not any(isinstance(effective["arm"].get(key), list) for key in ("dh", "joint")):
+        return "the arm has neither dh nor [[arm.joint]]"
     checks = effective.get("checks")
     if not isinstance(checks, list):
         return "[[checks]] is missing"

@@ -27,7 +27,7 @@ class Signals:
     force_measured: np.ndarray    # N, by the wrist sensor, tared
     force_true: np.ndarray        # N, normal force of the wall on the robot
     force_integral: np.ndarray    # N·s, of the force error, as the controller has it
-    contact_force: np.ndarray     # N, true force of wall and disturbance on the robot, base axes, [n, 3]
+    contact_force: np.ndarray     # N, true force of wall and disturbance on the robot, world axes, [n, 3]
     stiffness: np.ndarray         # N/m, estimate of the wall's (51)
     position: np.ndarray          # rad, motor-side angle as measured, [n, dof]
     reference_speed: np.ndarray   # rad/s, of the desired angle, [n, dof]

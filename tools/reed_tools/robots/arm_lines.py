@@ -1,9 +1,11 @@
-"""The arm, the wall and a force as lines, plates and arrows: what every picture in space is made from. Base frame, m."""
+"""The arm, the wall and a force as lines, plates and arrows: what every picture in space is made from. World frame, m."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from reed_tools.robots.chain import chain_of
+from reed_tools.robots.joint_frames import mounts, quaternion_of
 from reed_tools.robots.rigid_arm import poses
 
 FORCE_mPN = 0.01      # length of a force's arrow
@@ -13,22 +15,23 @@ ARM_RGB, GHOST_RGB, WALL_RGB, FORCE_RGB, TRACE_RGB = (214, 94, 0), (150, 150, 15
 
 
 def centre_line(arm: dict, q: np.ndarray) -> np.ndarray:
-    """Rigid arms for many poses, [n, 2 dof + 2, 3]: from each joint along a, then along d, at last the tool point."""
+    """Rigid arms for many poses, [n, 2 dof + 2, 3]: from each link to the next joint, then along its axis, at last the tool point."""
     at = poses(arm, q)
     R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
     points = [p]
-    for joint, (_, a, _) in enumerate(arm["dh"]):
-        points += [p + a * R[:, :, 0], at.p[joint]]
+    for joint, mount in enumerate(mounts(arm)):
+        points += [p + R @ mount.p, at.p[joint]]
         R, p = at.R[joint], at.p[joint]
-    return np.stack([*points, p + R @ np.asarray(arm.get("tool_offset", [0.0, 0.0, 0.0]))], axis=1)
+    return np.stack([*points, p + R @ chain_of(arm).tool_offset], axis=1)
 
 
-def joint_transforms(arm: dict, q: np.ndarray) -> list[tuple[tuple, tuple]]:
-    """(position, quaternion w x y z) of every link frame in the one before: Rx(alpha) Tx(a) Rz(theta) Tz(d)."""
+def joint_transforms(arm: dict, q: np.ndarray) -> list[tuple[str, tuple, tuple]]:
+    """(name, position, quaternion w x y z) of every link frame in the one before, of the first one in the world."""
     found = []
-    for (alpha, a, d), theta in zip(arm["dh"], q):
-        ca, sa, ct, st = np.cos(alpha / 2), np.sin(alpha / 2), np.cos(theta / 2), np.sin(theta / 2)
-        found.append(((a, -d * np.sin(alpha), d * np.cos(alpha)), (ca * ct, sa * ct, -sa * st, ca * st)))
+    for mount, theta in zip(mounts(arm), q):
+        c, s = np.cos(theta), np.sin(theta)
+        R = mount.R @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        found.append((mount.frame, tuple(mount.p + mount.d * R[:, 2]), quaternion_of(R)))
     return found
 
 

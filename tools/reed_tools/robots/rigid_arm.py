@@ -1,14 +1,17 @@
 """The arm's rigid model for many poses at once, from the [arm] table alone: body by body with M = Σ m JᵥᵀJᵥ + JᵤᵀIJᵤ,
-a route of its own beside the firmware's. q: [n, dof], rad; Craig DH, T_i = Rx(α) Tx(a) Rz(θ) Tz(d)."""
+a route of its own beside the firmware's. q: [n, dof], rad; T_i = T(mount) Rz(θ) Tz(d)."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from reed_tools.robots.chain import chain_of, turned
+from reed_tools.robots.joint_frames import dof
+
 
 @dataclass
 class Poses:
-    """Link frames in base axes, [dof, n, …]."""
+    """Link frames in world axes, [dof, n, …]."""
 
     R: np.ndarray  # [dof, n, 3, 3]
     p: np.ndarray  # [dof, n, 3], m
@@ -17,12 +20,10 @@ class Poses:
 def poses(arm: dict, q: np.ndarray) -> Poses:
     R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
     rotations, origins = [], []
-    for joint, (alpha, a, d) in enumerate(arm["dh"]):
-        c, s, zero, one = np.cos(q[:, joint]), np.sin(q[:, joint]), np.zeros(len(q)), np.ones(len(q))
-        ca, sa = np.cos(alpha), np.sin(alpha)
-        local = np.stack([c, -s, zero, s * ca, c * ca, -sa * one, s * sa, c * sa, ca * one], axis=1).reshape(-1, 3, 3)
-        p = p + R @ np.array([a, -d * sa, d * ca])
-        R = R @ local
+    chain = chain_of(arm)
+    for joint in range(chain.dof):
+        p = p + R @ chain.offset[joint]
+        R = R @ turned(chain, joint, q[:, joint])
         rotations.append(R)
         origins.append(p)
     return Poses(np.array(rotations), np.array(origins))
@@ -41,12 +42,12 @@ def jacobians(at: Poses, body: int, offset) -> tuple[np.ndarray, np.ndarray]:
 
 
 def tip_jacobian(arm: dict, q: np.ndarray) -> np.ndarray:
-    return jacobians(poses(arm, q), len(arm["dh"]) - 1, arm.get("tool_offset", [0.0, 0.0, 0.0]))[0]
+    return jacobians(poses(arm, q), dof(arm) - 1, chain_of(arm).tool_offset)[0]
 
 
 def tip(arm: dict, q: np.ndarray) -> np.ndarray:
     at = poses(arm, q)
-    return at.p[-1] + at.R[-1] @ np.asarray(arm.get("tool_offset", [0.0, 0.0, 0.0]))
+    return at.p[-1] + at.R[-1] @ chain_of(arm).tool_offset
 
 
 def mass_matrix(arm: dict, q: np.ndarray) -> np.ndarray:
@@ -92,7 +93,7 @@ def body_of(mass: float, first: np.ndarray, second: np.ndarray) -> dict:
 
 def viscous_friction(arm: dict) -> np.ndarray:
     """True F_v per joint, N·m·s/rad."""
-    total = np.zeros(len(arm["dh"]))
+    total = np.zeros(dof(arm))
     for shape in arm["param_shapes"]:
         if "viscous_weights" in shape:
             total += arm["p_true"][arm["param_names"].index(shape["param"])] * np.array(shape["viscous_weights"])

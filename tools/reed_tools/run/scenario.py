@@ -10,6 +10,7 @@ from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import checks
 from reed_tools.paths import program
 from reed_tools.record import configuration
+from reed_tools.robots.joint_frames import dof
 from reed_tools.run import hil, joints
 
 SHORT_OPTIONS = {"rate": "timing.rate_hz", "duration": "scenario.duration_s", "seed": "scenario.seed"}
@@ -38,5 +39,5 @@ def write_effective(scenario: str, arm: str | None, entries: list[str], target: 
         raise RunError(f"reed_config ended with status {done.returncode}: {message}")
     effective = configuration.load(target)
     checks.require_known(effective["checks"], where=scenario)
-    joints.need(len(effective["arm"]["dh"]))
+    joints.need(dof(effective["arm"]))
     return effective
