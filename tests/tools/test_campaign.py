@@ -91,12 +91,11 @@ def test_entries_of_a_list_are_drawn_each_by_itself(press_known):
     assert abs(correlation) < 0.17  # three standard deviations of 300 independent pairs
 
 
-def test_shards_part_the_draws_without_overlap(press_known):
+def test_a_part_of_the_draws_may_be_asked_for(press_known):
     from reed_tools.campaign.command import selected
 
-    options = {"draws": 23, "first": None, "count": None, "shard": None}
-    parts = [selected(press_known, {**options, "shard": f"{part}/4"}) for part in (1, 2, 3, 4)]
-    assert sorted(sum(parts, [])) == list(range(23)) and max(map(len, parts)) - min(map(len, parts)) <= 1
+    options = {"draws": 23, "first": None, "count": None}
+    assert selected(press_known, options) == list(range(23))
     assert selected(press_known, {**options, "first": 7, "count": 3}) == [7, 8, 9]
 
 
@@ -231,13 +230,15 @@ def test_draws_of_another_campaign_and_lines_that_are_no_draw_are_refused(tmp_pa
 @pytest.mark.parametrize("argv, told", [
     (["nowhere"], "press_known"),
     (["--draws", "0"], "whole number"),
-    (["--shard", "5/4"], "I from 1 to N"),
     (["--from", "200"], "--from 200"),
     (["--jobs", "-1"], "--jobs"),
     (["--draws", "1000000000000"], "--draws 1000000000000: allowed: a whole number from 1 to 1000000"),
     (["--count", "1000000000000"], "--count"),
     (["--jobs", "99999"], "--jobs"),
-    (["--shard", "1/99999999999"], "I from 1 to N"),
+    (["--scheduler", "nowhere"], "--scheduler nowhere: allowed: tcp://HOST:PORT"),
+    (["--scheduler", "tcp://127.0.0.1:99999"], "allowed: tcp://HOST:PORT"),
+    (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler tcp://127.0.0.1:1: no Dask scheduler answers there"),
+    (["--scheduler", "tcp://127.0.0.1:1", "--jobs", "2"], "not allowed with"),
     (["--resume", "/nowhere"], "/nowhere"),
     (["--set", "wall.stifness_Npm=1"], "stiffness_Npm"),
     (["--out", "/proc/nowhere"], "/proc/nowhere"),
@@ -293,9 +294,9 @@ def test_a_description_may_have_lines(tmp_path):
 
 
 @pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"{}", b"\xff\xfe", b"[" * 50000, b'{"draws": "4"}', b'{"draws": true}',
-                                    b'{"seed": -1}', b'{"set": "a=b"}', b'{"set": [3]}', b'{"count": 1000000000000}', b'{"shard": 3}'])
+                                    b'{"seed": -1}', b'{"set": "a=b"}', b'{"set": [3]}', b'{"count": 1000000000000}'])
 def test_damaged_options_are_one_line(reed, tmp_path, damage):
-    good = {"seed": None, "set": [], "draws": None, "first": None, "count": None, "shard": None}
+    good = {"seed": None, "set": [], "draws": None, "first": None, "count": None}
     (tmp_path / "campaign.toml").write_text(HEAD.format(scenario="press_known"))
     try:
         changed = json.loads(damage)

@@ -8,6 +8,7 @@ import pytest
 import synthetic_signals as synthetic
 
 from reed_tools import paths
+from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paper import catalogue, command, page, phases, runs
 from reed_tools.paper.catalogue import Experiment
@@ -160,19 +161,19 @@ def short(key, *overrides):
     return experiment
 
 
-def run_all(experiments, cache, jobs=2):
+def run_all(experiments, cache):
     told = []
-    results = runs.run_all(experiments, cache, jobs, lambda event, experiment, seconds: told.append((event, experiment.key)))
-    return results, [entry for entry in told if entry[0] != "at"]
+    results = runs.run_all(lambda: Engine(1), experiments, cache, lambda event, experiment, seconds: told.append((event, experiment.key)))
+    return results, told
 
 
 def test_what_ran_before_is_kept_and_what_changed_runs(stand_ins, tmp_path):
     pair = [short("one"), short("two", "force.desired_N=9")]
     results, told = run_all(pair, tmp_path)
-    assert sorted(told) == [("done", "one"), ("done", "two"), ("started", "one"), ("started", "two")]
+    assert sorted(told) == [("done", "one"), ("done", "two")]
     assert [r.experiment.key for r in results] == ["one", "two"] and len(results[0].signals.t) == 1000
     again, told = run_all([*pair, short("three", "force.desired_N=7")], tmp_path)
-    assert told == [("kept", "one"), ("kept", "two"), ("started", "three"), ("done", "three")]
+    assert told == [("kept", "one"), ("kept", "two"), ("done", "three")]
     np.testing.assert_array_equal(again[0].signals.joint_error, results[0].signals.joint_error)
     assert not list(tmp_path.glob("*/*.lcmlog"))
 
@@ -182,7 +183,7 @@ def test_a_program_that_dies_ends_the_command_with_its_words(stand_ins, tmp_path
     with pytest.raises(RunError, match="one: .*bus lost"):
         run_all([short("one")], tmp_path)
     monkeypatch.delenv("REED_FAKE_ONE_PROCESS")
-    assert run_all([short("one")], tmp_path)[1] == [("started", "one"), ("done", "one")]
+    assert run_all([short("one")], tmp_path)[1] == [("done", "one")]
 
 
 def test_a_wrong_configuration_is_refused_before_anything_runs(stand_ins, tmp_path):
@@ -193,8 +194,8 @@ def test_a_wrong_configuration_is_refused_before_anything_runs(stand_ins, tmp_pa
 
 def test_a_small_real_run_gives_the_signals_of_a_pressing_arm(tmp_path, monkeypatch):
     monkeypatch.setattr(catalogue, "DURATION_S", 0.7)
-    (one,), told = run_all([short("press")], tmp_path, jobs=1)
-    assert told == [("started", "press"), ("done", "press")]
+    (one,), told = run_all([short("press")], tmp_path)
+    assert told == [("done", "press")]
     assert one.stopped is None and one.signals.dof == 5
     assert 0.69 < one.signals.t[-1] < 0.71
     assert one.signals.force_true.max() > 1.0 and one.signals.stiffness.min() > 1000.0
@@ -202,7 +203,7 @@ def test_a_small_real_run_gives_the_signals_of_a_pressing_arm(tmp_path, monkeypa
 
 def test_bad_numbers_of_jobs_are_refused():
     class Arguments:
-        out, jobs, fresh = None, 0, False
+        out, jobs, scheduler, fresh = None, 0, None, False
 
     with pytest.raises(UsageError, match="--jobs 0"):
         command.run(Arguments)

@@ -13,5 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from reed_tools import streams  # noqa: E402
 from reed_tools.cli import main  # noqa: E402
 
-streams.install()
-sys.exit(streams.finish(main(sys.argv[1:])))
+if __name__ == "__main__":
+    streams.install()
+    sys.exit(streams.finish(main(sys.argv[1:])))
+os.setsid()  # a worker's process: Ctrl-C and a closed terminal reach the tool alone, which ends its workers in order

@@ -1,25 +1,25 @@
 """tools/reed campaign: many lockstep runs of one scenario with drawn numbers, and whether all of them hold."""
 
+import functools
 import json
-import os
-import re
 import shlex
 import shutil
 import tempfile
 from pathlib import Path
 
 from reed_tools import folders, streams, versions
-from reed_tools.campaign import definition, draws, junit, progress, verdicts
+from reed_tools.campaign import definition, draws, junit, one_draw, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
-from reed_tools.campaign.workers import Workers
+from reed_tools.engine import options as engine_options
+from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
 from reed_tools.run import hil, plans, scenario
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
 OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
-MOST_JOBS, MOST_REPEATS = 1024, 1000
-WHOLE = {"draws": (1, MOST_DRAWS), "first": (0, MOST_DRAWS), "count": (1, MOST_DRAWS), "jobs": (1, MOST_JOBS), "repeat": (0, MOST_REPEATS)}
-SELECTION = ("draws", "first", "count", "shard")
+MOST_REPEATS = 1000
+WHOLE = {"draws": (1, MOST_DRAWS), "first": (0, MOST_DRAWS), "count": (1, MOST_DRAWS), "repeat": (0, MOST_REPEATS)}
+SELECTION = ("draws", "first", "count")
 EXAMPLE = """examples:
   tools/reed campaign press_known --draws 20           # how good and how bad it gets
   tools/reed campaign --resume out/CAMPAIGN            # goes on where it was interrupted"""
@@ -30,11 +30,9 @@ def add_arguments(parser) -> None:
     parser.add_argument("--draws", type=int, metavar="N", help="draws 0 to N-1; default: the campaign's number")
     parser.add_argument("--from", dest="first", type=int, metavar="I", help="only draws from number I on")
     parser.add_argument("--count", type=int, metavar="K", help="only K draws")
-    parser.add_argument("--shard", metavar="I/N", help="only the I-th of N equal parts, I from 1: the rest on other machines; "
-                        "lines of their draws.jsonl may be put together and resumed")
     parser.add_argument("--seed", type=int, metavar="N", help="campaign seed; a draw follows from it and the draw's number")
     parser.add_argument("--set", action="append", metavar="SECTION.KEY=VALUE", help="override in every draw; repeatable")
-    parser.add_argument("--jobs", type=int, metavar="N", help="draws at a time; default: one per core")
+    engine_options.add_arguments(parser)
     parser.add_argument("--repeat", type=int, default=2, metavar="K", help="run the K worst draws twice and compare; default %(default)s")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
@@ -48,6 +46,7 @@ def run(arguments) -> int:
         value = getattr(arguments, option)
         if value is not None and not least <= value <= most:
             raise UsageError(f"--{'from' if option == 'first' else option} {value}: allowed: a whole number from {least} to {most}")
+    engine_options.check(arguments)
     folder, campaign, indices = resumed(arguments) if arguments.resume else begun(arguments)
     with streams.result_alone(arguments.json):
         status = run_draws(arguments, folder, campaign, indices)
@@ -59,13 +58,28 @@ def run(arguments) -> int:
 def run_draws(arguments, folder: Path, campaign: Campaign, indices: list[int]) -> int:
     finished = {record.index: record for record in draws.read(folder, campaign.definition())}
     pending = [index for index in indices if index not in finished]
-    jobs = arguments.jobs or len(os.sched_getaffinity(0))
-    print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, {jobs} at a time", flush=True)
+    print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, "
+          f"{engine_options.place(arguments)}", flush=True)
     build = versions.build(plans.names(hil.MEMORY).values())
-    interrupted = run_pending(folder, campaign, pending, jobs, build, finished)
+    repeats, interrupted = [], False
+    if pending or arguments.repeat:
+        refuse_early(campaign, indices[0])
+        with Engine(min(engine_options.jobs(arguments), max(len(pending), arguments.repeat)), arguments.scheduler) as engine:
+            one = functools.partial(one_draw.run_draw, campaign, build)
+            run_pending(engine, one, folder, campaign, pending, finished)
+            records = [finished[index] for index in indices if index in finished]
+            repeats = run_again(engine, one, records, arguments.repeat, build)
+            interrupted = engine.interrupted
     records = [finished[index] for index in indices if index in finished]
-    repeats = [] if interrupted else run_again(campaign, records, arguments.repeat, jobs, build)
     return conclude(folder, campaign, len(indices), records, repeats, interrupted)
+
+
+def refuse_early(campaign: Campaign, index: int) -> None:
+    """A wrong key is a line before the workers start, and a controller for other joints is built once."""
+    try:
+        one_draw.known_to_figures(campaign, campaign.overrides(index))
+    except UsageError as error:
+        raise UsageError(f"draw {index}: {error}") from None
 
 
 def begun(arguments) -> tuple[Path, Campaign, list[int]]:
@@ -103,12 +117,12 @@ def read_options(path: Path) -> dict:
     """What begun() wrote, or a line about what is wrong with it."""
     try:
         options = json.loads(path.read_bytes())
-        seed, entries, shard = (options[key] for key in ("seed", "set", "shard"))
+        seed, entries = options["seed"], options["set"]
         numbers = [(options[key], *WHOLE[key]) for key in ("draws", "first", "count")]
     except (ValueError, RecursionError, TypeError, KeyError):
         raise UsageError(f"{path}: damaged: it is not what the campaign wrote there") from None
     whole = all(value is None or type(value) is int and least <= value <= most for value, least, most in [*numbers, (seed, 0, LARGEST)])
-    if not whole or not isinstance(shard, str | None) or not isinstance(entries, list) or not all(isinstance(entry, str) for entry in entries):
+    if not whole or not isinstance(entries, list) or not all(isinstance(entry, str) for entry in entries):
         raise UsageError(f"{path}: damaged: a value is not of the kind that the campaign wrote there")
     return options
 
@@ -117,37 +131,25 @@ def selected(campaign: Campaign, options: dict) -> list[int]:
     first = options["first"] or 0
     end = first + options["count"] if options["count"] else options["draws"] or campaign.draws
     indices = list(range(first, end))
-    if options["shard"]:
-        match = re.fullmatch(r"([0-9]{1,7})/([0-9]{1,7})", options["shard"])
-        part, parts = (int(text) for text in match.groups()) if match else (0, 0)
-        if not 1 <= part <= parts:
-            raise UsageError(f"--shard {options['shard']}: allowed: I/N with I from 1 to N")
-        indices = indices[part - 1::parts]
     if not indices:
         raise UsageError(f"no draw is selected: the draws are 0 to {(options['draws'] or campaign.draws) - 1}, --from {first}")
     return indices
 
 
-def run_pending(folder: Path, campaign: Campaign, pending: list[int], jobs: int, build: str, finished: dict) -> bool:
-    """Fills `finished` and the folder's file; True when interrupted."""
-    if not pending:
-        return False
-    with Workers(campaign, pending, jobs, build) as workers:
+def run_pending(engine: Engine, one, folder: Path, campaign: Campaign, pending: list[int], finished: dict) -> None:
+    """Fills `finished` and the folder's file, each draw when it is done."""
+    if pending:
         with progress.shown(campaign.name, len(pending)) as on_record:
-            for record in workers.records():
+            for index, record in engine.map(one, pending):
                 draws.append(folder, record)
-                finished[record.index] = record
+                finished[index] = record
                 on_record(record)
-    return workers.interrupted
 
 
-def run_again(campaign: Campaign, records: list, count: int, jobs: int, build: str) -> list:
+def run_again(engine: Engine, one, records: list, count: int, build: str) -> list:
     """The worst draws of this build a second time: equal digests mean equal runs."""
     worst = [record.index for record in draws.worst_first(records) if record.build == build and record.digest][:count]
-    if not worst:
-        return []
-    with Workers(campaign, worst, jobs, build) as workers:
-        return list(workers.records())
+    return [record for _, record in engine.map(one, worst)]
 
 
 def arm_of(campaign: Campaign) -> dict:

@@ -5,7 +5,7 @@ import numpy as np
 from reed_tools.figures import metrics
 from reed_tools.record.signals import Signals
 from reed_tools.record.telemetry_log import Recording
-from reed_tools.robots import arm_frames, arm_lines
+from reed_tools.robots import arm_frames, arm_lines, joint_frames
 from reed_tools.show.interactive import floats
 
 MOST_FRAMES = 900

@@ -1,10 +1,10 @@
 """tools/reed paper: the experiments of the paper's section 4, run in lockstep, and one page with what came out."""
 
-import os
 from contextlib import contextmanager
 
 from reed_tools import folders
-from reed_tools.errors import UsageError
+from reed_tools.engine import options as engine_options
+from reed_tools.engine.engine import Engine
 from reed_tools.paper import catalogue, runs
 from reed_tools.paths import ROOT
 from reed_tools.show import tables
@@ -17,15 +17,13 @@ EXAMPLE = """examples:
 
 def add_arguments(parser) -> None:
     parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder of the page; default out/<time>-paper")
-    parser.add_argument("--jobs", metavar="N", type=int, default=max(1, len(os.sched_getaffinity(0)) // 2),
-                        help="runs side by side, two programs each; default half the cores, here %(default)s")
+    engine_options.add_arguments(parser)
     parser.add_argument("--fresh", action="store_true", help="run everything again instead of keeping what ran before")
     parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
-    if arguments.jobs < 1:
-        raise UsageError(f"--jobs {arguments.jobs}: allowed are 1 and more")
+    engine_options.check(arguments)
     CACHE.mkdir(parents=True, exist_ok=True)
     folders.hold(CACHE)
     folder = folders.fresh(arguments.out, "paper", ("paper.html",), "such a page already; remove it or choose another folder")
@@ -33,7 +31,7 @@ def run(arguments) -> int:
         runs.forget(CACHE)
     experiments = catalogue.everything()
     with progress(len(experiments)) as report:
-        results = runs.run_all(experiments, CACHE, arguments.jobs, report)
+        results = runs.run_all(lambda: Engine(engine_options.jobs(arguments), arguments.scheduler), experiments, CACHE, report)
     from reed_tools.paper import page  # matplotlib: not before the runs are safe
 
     path = page.write(folder, results)
@@ -58,16 +56,15 @@ def show(results) -> None:
 
 @contextmanager
 def progress(count: int):
-    """Yields report(event, experiment, seconds) for run_all: a bar on a terminal, a line per run without one."""
+    """Yields report(event, experiment, seconds) for run_all, called once per experiment: a bar on a terminal, lines without one."""
     out = tables.console()
     if not out.is_terminal:
         finished = []
 
         def line(event, experiment, seconds):
-            if event in ("kept", "done"):
-                finished.append(experiment)
-                how = "kept from before" if event == "kept" else f"{seconds:.1f} s"
-                print(f"  {len(finished):2}/{count}  {experiment.key}: {how}", flush=True)
+            finished.append(experiment)
+            how = "kept from before" if event == "kept" else f"{seconds:.1f} s"
+            print(f"  {len(finished):2}/{count}  {experiment.key}: {how}", flush=True)
 
         yield line
         return
@@ -76,10 +73,4 @@ def progress(count: int):
     with Progress(TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
                   console=out, transient=True) as bars:
         whole = bars.add_task("experiments", total=count)
-        into: dict[str, float] = {}
-
-        def update(event, experiment, seconds):
-            into[experiment.key] = 1.0 if event in ("kept", "done") else seconds / catalogue.DURATION_S
-            bars.update(whole, completed=sum(into.values()), description=experiment.key)
-
-        yield update
+        yield lambda event, experiment, seconds: bars.update(whole, advance=1, description=experiment.key)

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -154,10 +154,11 @@ def stop_requests():
             signal.signal(number, handler)
 
 
-def run(plan: Plan, on_progress) -> Outcome:
-    """Runs the scenario to its end. on_progress(mode, t_s) is called a few times per second."""
+def run(plan: Plan, on_progress, interrupted: list | None = None) -> Outcome:
+    """Runs the scenario to its end. on_progress(mode, t_s) is called a few times per second. `interrupted`: a list that somebody
+    fills when the run shall end; without it signals ask for that."""
     outcome = Outcome()
-    with Guard() as guard, stop_requests() as interrupted:
+    with Guard() as guard, stop_requests() if interrupted is None else nullcontext(interrupted) as interrupted:
         (run_one if plan.bus == MEMORY else run_pair)(plan, guard, interrupted, outcome, on_progress)
         outcome.interrupted = bool(interrupted)
     return outcome
