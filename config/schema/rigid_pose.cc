@@ -96,7 +96,7 @@ std::vector<double> StartAnglesFor(const ArmStructure& arm, const Vector3d& tip,
   constexpr double kGolden = 0.6180339887498949, kPi = 3.141592653589793;
   for (int guess = 1; guess <= kGuesses; ++guess) {
     std::vector<double> q;
-    for (std::size_t i = 0; i < arm.dh.size(); ++i) {
+    for (std::size_t i = 0; i < arm.joints.size(); ++i) {
       const double share = std::fmod(kGolden * static_cast<double>(i + 1) * guess, 1.0) - 0.5;
       const double range = arm.position_max_rad[i] - arm.position_min_rad[i];
       q.push_back(0.5 * (arm.position_min_rad[i] + arm.position_max_rad[i]) + share * std::min(range, kPi));

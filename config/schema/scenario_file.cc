@@ -128,9 +128,9 @@ void FindStart(Document& doc, Scenario& s) {
   const auto refuse = [&](const std::string& problem) {
     doc.Fail(doc.root().at_path("reference.start_tip_m").node(), "reference.start_tip_m", problem);
   };
-  if (tip.size() != 3) refuse("expected [x, y, z] in m, base frame");
+  if (tip.size() != 3) refuse("expected [x, y, z] in m, world frame");
   const bool near = !reference.start_rad.empty();
-  if (near && reference.start_rad.size() != s.arm.dh.size()) return;  // a rule says so
+  if (near && reference.start_rad.size() != s.arm.joints.size()) return;  // a rule says so
   reference.start_rad = StartAnglesFor(s.arm, Eigen::Map<const Eigen::Vector3d>(tip.data()),
                                        reference.start_rad, 1.5 * s.limits.position_margin_rad);
   if (reference.start_rad.empty())
