@@ -22,7 +22,7 @@ def tracked(*patterns):
 FILES = tracked()
 DOCUMENTS = [name for name in FILES if name.endswith(".md")]
 SOURCE = "h|cc|c|py|md|toml|lcm|dbc|txt|pml"
-MADE = {"controller.toml", "effective.toml", "run.json", "one_process.txt"}  # written by a run
+MADE = {"controller.toml", "plant.toml", "effective.toml", "run.json", "one_process.txt"}  # written by a run
 INSTALLED = {"reed/law.h"}  # as users include firmware/law_interface/law.h
 PYTHON_NAMES = {"can": "python-can", "pinocchio": "Pinocchio", "Pynite": "PyNite", "mujoco": "MuJoCo", "scipy": "SciPy",
                 "mcap_protobuf": "mcap-protobuf-support", "google": "protobuf", "PIL": "pillow", "foxglove_schemas_protobuf": "foxglove-schemas-protobuf"}

@@ -104,7 +104,7 @@ def version() -> str:
 def version_json() -> str:
     from reed_tools import versions
 
-    return json.dumps(versions.all_of_them())
+    return json.dumps(versions.of_tools() | {"build": versions.build()})
 
 
 def module_of(name: str):
