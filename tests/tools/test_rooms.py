@@ -29,6 +29,7 @@ ARROWS = {
     "campaign": {"engine", "figures", "record", "robots", "run", "show"},
     "paper": {"engine", "figures", "record", "robots", "run", "show"},
     "bode": {"record", "run", "show"},
+    "tune": {"campaign", "engine", "record", "robots", "run", "scenarios", "show"},
     "bench": {"law", "record", "robots", "show"},
     "machine": {"run", "show"},
     "testing": {"run"},

@@ -27,6 +27,7 @@ COMMANDS = {
     "scenario": ("scenarios.command", "a new scenario for an arm: a press on a wall, or free motion"),
     "identify": ("identify.command", "inertial parameters and friction from recorded runs, or the motion to record"),
     "bode": ("bode.command", "gain, phase and margins of one joint's loop, measured with a multisine"),
+    "tune": ("tune.command", "better gains of a scenario within the rules, with what each step brought"),
     "spy": ("machine.spy", "watch every telemetry channel live with lcm-spy"),
     "doctor": ("machine.doctor", "what this machine can and cannot do, with the exact fixes"),
     "paper": ("paper.command", "the paper's experiments, reproduced on one page"),

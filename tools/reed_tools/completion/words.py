@@ -8,7 +8,7 @@ from reed_tools import cli
 from reed_tools.errors import RunError
 from reed_tools.paths import program
 
-KINDS = {"RUN_DIR": "run", "RUN": "run", "RUN_DIR|FILE|-": "run", "RUN_DIR|CANDUMP": "run", "SCENARIO": "scenario", "NAME|FILE": "arm",
+KINDS = {"RUN_DIR": "run", "RUN": "run", "RUN_DIR|FILE|-": "run", "RUN_DIR|CANDUMP": "run", "SCENARIO": "scenario", "SCENARIO|ARM": "scenario", "NAME|FILE": "arm",
          "ARM": "arm", "CAMPAIGN": "campaign", "DIR": "folder", "FILE": "file", "F": "file", "F.toml": "file", "F.urdf": "file",
          "FILE.toml": "file", "ARM_OUT.toml": "file", "LIB.so": "file", "LIB.so|FILE.py": "file", "BUS": "bus"}
 FREE = "free"  # a value that only the person knows

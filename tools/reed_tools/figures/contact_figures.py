@@ -7,6 +7,7 @@ from reed_tools.figures.run_data import CONTACT_N, NoFigure, RunData
 from reed_tools.record.signals import SOURCES
 
 IMPACT_S = 0.3           # how long after first contact an impact may last
+RIPPLE_HZ = 25.0         # what is faster is no motion that was asked for
 
 
 def force_error_last_second(run: RunData) -> np.ndarray:
@@ -70,6 +71,17 @@ def torque_peak_percent(run: RunData):
     return 100.0 * float(np.max(np.abs(run.signals.torque) / np.array(run.torque_limits)))
 
 
+def torque_ripple_percent_last_second(run: RunData):
+    """rms of the commanded torque's part above 25 Hz over the last second, of the joint where it is largest, in percent of its limit"""
+    torque = run.signals.torque[run.last_second()]
+    width = max(3, round(run.rate_hz / RIPPLE_HZ))
+    if len(torque) <= width:
+        raise NoFigure("the run is too short for a ripple")
+    slow = np.stack([np.convolve(joint, np.full(width, 1.0 / width), mode="valid") for joint in torque.T], axis=1)
+    fast = torque[width // 2:width // 2 + len(slow)] - slow
+    return 100.0 * float(np.max(np.sqrt(np.mean(fast ** 2, axis=0)) / np.array(run.torque_limits)))
+
+
 def torque_step_at_switch_percent(run: RunData):
     """largest change of a commanded torque in the cycle in which the active law changed, in percent of the joint's limit"""
     switched = np.flatnonzero(np.diff(run.signals.source) != 0)
@@ -91,4 +103,5 @@ def source_switch_cycles(run: RunData):
 
 
 FIGURES = (force_rms_N_last_second, force_rms_percent_last_second, force_peak_N_last_second, impact_peak_N, contact_force_max_N,
-           contact_force_max_percent_of_desired, contact_lost_ms, torque_peak_percent, torque_step_at_switch_percent, source_switch_cycles)
+           contact_force_max_percent_of_desired, contact_lost_ms, torque_peak_percent, torque_ripple_percent_last_second,
+           torque_step_at_switch_percent, source_switch_cycles)
