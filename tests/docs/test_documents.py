@@ -12,6 +12,8 @@ import pytest
 from reed_tools import cli
 from reed_tools.campaign import definition
 from reed_tools.paths import ROOT, SCENARIOS, program
+from reed_tools.record.message_layout import fields
+from reed_tools.record.telemetry_log import TABLES
 
 
 def tracked(*patterns):
@@ -108,10 +110,17 @@ def keys():
     return set(re.findall(r"^\| ([\w.\[\]]+) \|", printed, re.M)) - {"key", "arm"}
 
 
+@functools.cache
+def signals():
+    """Recorded signals and their columns, as Python and the exports name them: control.tau, control.tau_j1."""
+    found = {f"{channel.removeprefix('REED_').lower()}.{field.name}" for channel, kind in TABLES.items() for field in fields(kind)}
+    return found | {f"{name}_{suffix}" for name in found for suffix in ("j1", "x")}
+
+
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_every_key_of_a_scenario_that_is_named_exists(document):
     sections = {key.partition(".")[0] for key in keys()} - {"checks[]"}
-    known = keys() | {f"{section}.{key}" for section, allowed in definition.SECTIONS.items() for key in allowed}
+    known = keys() | signals() | {f"{section}.{key}" for section, allowed in definition.SECTIONS.items() for key in allowed}
     lists = {key.partition("[]")[0] + "[]" for key in known}
     for name in re.findall(rf"(?<![\w./-])((?:{'|'.join(sections)})(?:\.\w+|\[\])+)", text_of(document)):
         key = re.sub(r"\.\d+", "[]", name)

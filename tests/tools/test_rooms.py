@@ -33,6 +33,7 @@ ARROWS = {
     "bench": {"law", "record", "robots", "show"},
     "machine": {"run", "show"},
     "testing": {"run"},
+    "notebook": {"cli", "export", "figures", "record", "run", "show"},
     "completion": {"cli"},  # it lists what the command line takes
 }
 NEEDS_NO_PACKAGE = ("run/pair.py", "run/hil.py", "run/guard.py", "record/log_tail.py", "run/__init__.py", "record/__init__.py", "__init__.py")  # run inside the VM
