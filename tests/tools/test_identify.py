@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tomllib
 
@@ -199,3 +200,13 @@ def test_a_motion_keeps_the_limits(runs):
 def test_the_truth_is_not_read(runs):
     """The controller's half of the configuration has none, and it is what is read."""
     assert "truth" not in samples.arm_of_run(runs / "run1") and "p_true" not in samples.arm_of_run(runs / "run1")
+
+
+def test_a_motion_of_an_arm_without_sections_runs_with_rigid_links(tmp_path):
+    """The plant refuses to bend what has no sections."""
+    old = (ROOT / "config" / "arms" / "p2.toml").read_text()
+    bare = re.sub(r"\[\[sections\]\].*?(?=\n# The simulated)", "", old, flags=re.S)
+    assert "sections" not in bare
+    (tmp_path / "bare.toml").write_text(bare)
+    done("identify", "--excite", tmp_path / "bare.toml", "--out", tmp_path / "motion.toml")
+    assert tomllib.loads((tmp_path / "motion.toml").read_text())["plant"] == {"flexible_links": False}

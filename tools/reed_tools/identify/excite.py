@@ -11,6 +11,7 @@ from reed_tools.identify.least_squares import LARGEST_CONDITION, condition_of
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.robots.regressor import inverse_dynamics
 from reed_tools.scenarios import gains
+from reed_tools.scenarios.new import plant
 
 POSES = 18
 RANGE, SPEED, TORQUE = 0.75, 0.6, 0.6  # shares of the limits
@@ -103,7 +104,7 @@ seed = {seed}
 
 [reference]
 start_rad = {in_line(motion.poses[0])}
-{legs}
+{legs}{plant(arm)}
 {chosen.lines()}
 [[checks]]
 name = "faults"
