@@ -7,6 +7,7 @@ import shlex
 import subprocess
 
 import pytest
+from PIL import Image
 
 from reed_tools.paths import PYTHON, ROOT
 from reed_tools.run import bus_choice
@@ -53,10 +54,25 @@ def test_the_python_of_the_tutorial_runs(tmp_path):
     assert "N·m" in done.stdout and done.stdout.count("wall.stiffness_Npm") == 2 and (tmp_path / "out" / "first" / "force_again.png").exists()
 
 
-def test_the_reference_is_what_its_sources_say():
-    spec = importlib.util.spec_from_file_location("make_reference", ROOT / "docs" / "make_reference.py")
+def script(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
+    return module
+
+
+def test_the_pictures_of_the_readme_are_made_by_a_command(tmp_path):
+    """Of the same size; what they show follows the controller."""
+    pictures = script("make_pictures")
+    shown = re.findall(r'<img src="docs/([^"]+)"', (ROOT / "README.md").read_text())
+    assert sorted(shown) == sorted(pictures.PICTURES.values())
+    pictures.make(tmp_path)
+    for name in shown:
+        assert Image.open(tmp_path / name).size == Image.open(ROOT / "docs" / name).size
+
+
+def test_the_reference_is_what_its_sources_say():
+    module = script("make_reference")
     assert module.text() == module.TARGET.read_text(), "build/venv/bin/python3 docs/make_reference.py"
     for section in ("SYNC", "REED_CONTROL", "joint_position", "JOINT_STATE_1", "host_pause"):
         assert section in module.text()
