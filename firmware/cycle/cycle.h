@@ -17,7 +17,10 @@ class Cycle final : public CycleBase {
  public:
   Cycle(const Settings<N, P>& settings, reference::PlannedPath<N> path, bus::Transport& transport,
         const strategy::ExternalLaw* external)
-      : path_(std::move(path)), bus_(transport), controller_(settings, path_.View(), external) {}
+      : path_(std::move(path)),
+        bus_(transport),
+        controller_(settings, path_.View(), external),
+        external_(external) {}
 
   CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const CycleState& loop,
                   telemetry::Snapshot& snapshot) noexcept override {
@@ -54,12 +57,14 @@ class Cycle final : public CycleBase {
     telemetry::FillMeasured(measured, snapshot.measured);
     telemetry::FillControl(controller_, snapshot.control);
     telemetry::FillAdaptation(controller_.strategy().adaptive(), snapshot.adaptation);
+    telemetry::FillLaw(external_, snapshot);
     telemetry::FillBus(bus_.transport_counters(), bus_.decode_counters(), bus_.late_frames(), snapshot.bus);
   }
 
   reference::PlannedPath<N> path_;  // the knots that the controller reads
   ArmBus<N> bus_;
   Controller<N, P> controller_;
+  const strategy::ExternalLaw* external_;  // nullptr: a law of the bank
 };
 
 }  // namespace reed
