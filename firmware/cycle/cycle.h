@@ -2,7 +2,8 @@
 // RT: safe, except the constructor.
 #pragma once
 
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "reed/core/controller.h"
 #include "reed/firmware/arm_bus/arm_bus.h"
@@ -16,9 +17,10 @@ template <int N, int P>
 class Cycle final : public CycleBase {
  public:
   Cycle(const Settings<N, P>& settings, reference::PlannedPath<N> path, bus::Transport& transport,
-        const strategy::ExternalLaw* external)
+        std::unique_ptr<bus::ControllerCodec> codec, const strategy::ExternalLaw* external)
       : path_(std::move(path)),
-        bus_(transport),
+        codec_(std::move(codec)),
+        bus_(transport, *codec_),
         controller_(settings, path_.View(), external),
         external_(external) {}
 
@@ -62,6 +64,7 @@ class Cycle final : public CycleBase {
   }
 
   reference::PlannedPath<N> path_;  // the knots that the controller reads
+  std::unique_ptr<bus::ControllerCodec> codec_;
   ArmBus<N> bus_;
   Controller<N, P> controller_;
   const strategy::ExternalLaw* external_;  // nullptr: a law of the bank

@@ -115,7 +115,7 @@ struct Snapshot {
       return;
     }
     constexpr std::size_t kShort = 16;
-    const FrameHead head{offset_ns, frame.id, direction, frame.size};
+    const FrameHead head{offset_ns, frame.id, direction, frame.size, frame.extended};
     std::byte* const to = frames.data() + frame_bytes;
     std::memcpy(to, &head, sizeof head);
     std::memcpy(to + sizeof head, frame.data.data(), kShort);
@@ -132,7 +132,7 @@ struct Snapshot {
     for (std::int32_t i = 0; i < num_frames; ++i) {
       FrameHead head;
       std::memcpy(&head, at, sizeof head);
-      RecordedFrame recorded{head.offset_ns, head.direction, {head.id, head.size, {}}};
+      RecordedFrame recorded{head.offset_ns, head.direction, {head.id, head.size, {}, head.extended}};
       std::memcpy(recorded.frame.data.data(), at + sizeof head, head.size);
       use(recorded);
       at += sizeof head + head.size;
@@ -158,6 +158,7 @@ struct Snapshot {
     std::uint32_t id;
     Direction direction;
     std::uint8_t size;
+    bool extended;
   };
 };
 static_assert(std::is_trivially_copyable_v<Snapshot>);

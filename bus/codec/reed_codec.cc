@@ -1,0 +1,40 @@
+#include "reed/bus/codec/reed_codec.h"
+
+namespace reed::bus {
+
+std::span<const Frame> ReedControllerCodec::Start(std::uint32_t cycle) noexcept {
+  sent_ = encoder_.Sync({cycle, layout::kLayoutId});
+  return {&sent_, 1};
+}
+
+std::span<const Frame> ReedControllerCodec::Command(const CommandMessage& command) noexcept {
+  sent_ = encoder_.Command(command);
+  return {&sent_, 1};
+}
+
+Decoded ReedControllerCodec::Read(const Frame& frame) noexcept { return decoder_.Decode(frame); }
+
+std::span<const Decoded> ReedArmCodec::Read(const Frame& frame) noexcept {
+  read_ = decoder_.Decode(frame);
+  return {&read_, 1};
+}
+
+Decoded ReedArmCodec::ReadAfresh(const Frame& frame) const noexcept { return Decoder().Decode(frame); }
+
+void ReedArmCodec::StartOver(const Frame& frame) noexcept {
+  decoder_ = Decoder();
+  decoder_.Decode(frame);
+}
+
+std::span<const Frame> ReedArmCodec::Answer(std::span<const JointStateMessage> joints,
+                                            const WrenchMessage* wrench) noexcept {
+  std::size_t size = 0;
+  for (const JointStateMessage& joint : joints) {
+    sent_[size] = encoder_.JointState(static_cast<int>(size), joint);
+    ++size;
+  }
+  if (wrench != nullptr) sent_[size++] = encoder_.Wrench(*wrench);
+  return std::span<const Frame>(sent_).first(size);
+}
+
+}  // namespace reed::bus
