@@ -195,7 +195,9 @@ Frame Encoder::Command(const CommandMessage& message) noexcept {
 Decoded Decoder::Decode(const Frame& frame) noexcept {
   Decoded out;
   const std::uint32_t joint = frame.id - layout::kJointState[0].id;
-  if (frame.id == layout::kSync.id) {
+  if (frame.extended) {  // of another protocol
+    out.reject = Reject::kUnknownId;
+  } else if (frame.id == layout::kSync.id) {
     out.kind = MessageKind::kSync;
     Read(frame, layout::kSync, sync_, out, out.sync);
   } else if (joint < kMaxJoints) {

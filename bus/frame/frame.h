@@ -7,9 +7,10 @@
 namespace reed::bus {
 
 struct Frame {
-  std::uint32_t id = 0;   // 11-bit identifier
+  std::uint32_t id = 0;   // 11 bits, or 29 where extended
   std::uint8_t size = 0;  // bytes used, one of the CAN FD sizes
   std::array<std::uint8_t, 64> data{};
+  bool extended = false;
 };
 
 /// True for the payload sizes that CAN FD has.

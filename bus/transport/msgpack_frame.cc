@@ -23,6 +23,7 @@ enum : std::uint8_t {
   kFloat64 = 0xCB,
   kUint8 = 0xCC,
   kUint16 = 0xCD,
+  kUint32 = 0xCE,
   kUint64 = 0xCF,
   kInt8 = 0xD0,
   kInt64 = 0xD3,
@@ -188,10 +189,9 @@ std::size_t PackFrame(const Frame& frame, double timestamp_s,
   const auto bits = std::bit_cast<std::uint64_t>(timestamp_s);
   for (int shift = 56; shift >= 0; shift -= 8) w.Byte(static_cast<unsigned>(bits >> shift & 0xFFU));
   w.Key("arbitration_id");
-  w.Byte(kUint16);
-  w.Byte(frame.id >> 8 & 0x07U);
-  w.Byte(frame.id & 0xFFU);
-  w.Bool("is_extended_id", false);
+  w.Byte(frame.extended ? kUint32 : kUint16);
+  for (int shift = frame.extended ? 24 : 8; shift >= 0; shift -= 8) w.Byte(frame.id >> shift & 0xFFU);
+  w.Bool("is_extended_id", frame.extended);
   w.Bool("is_remote_frame", false);
   w.Bool("is_error_frame", false);
   w.Key("channel");
@@ -213,13 +213,14 @@ Incoming UnpackFrame(std::span<const std::uint8_t> bytes, Frame& out) noexcept {
   if (!ReadFields(bytes, f)) return Incoming::kMalformed;
   if (f.error.IsTrue()) return Incoming::kErrorFrame;
   const Bytes data = f.data.bytes;
-  const bool data_frame = f.fd.IsTrue() && !f.extended.IsTrue() && !f.remote.IsTrue() &&
-                          f.id.kind == Value::Kind::kUnsigned && f.id.number <= 0x7FFU &&
+  const bool data_frame = f.fd.IsTrue() && !f.remote.IsTrue() && f.id.kind == Value::Kind::kUnsigned &&
+                          f.id.number <= (f.extended.IsTrue() ? 0x1FFFFFFFU : 0x7FFU) &&
                           f.data.kind == Value::Kind::kBinary && IsCanFdSize(data.size()) &&
                           f.dlc.kind == Value::Kind::kUnsigned && f.dlc.number == data.size();
   if (!data_frame) return Incoming::kMalformed;
   out = Frame{};
   out.id = static_cast<std::uint32_t>(f.id.number);
+  out.extended = f.extended.IsTrue();
   out.size = static_cast<std::uint8_t>(data.size());
   std::copy(data.begin(), data.end(), out.data.begin());
   return Incoming::kFrame;

@@ -98,11 +98,12 @@ Incoming SocketCanTransport::Read(const Datagram& datagram, Frame& out) noexcept
   if ((in.can_id & CAN_ERR_FLAG) != 0) {
     return (in.can_id & CAN_ERR_BUSOFF) != 0 ? Incoming::kBusOff : Incoming::kErrorFrame;
   }
-  if (size != CANFD_MTU || (in.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0 || !IsCanFdSize(in.len)) {
+  if (size != CANFD_MTU || (in.can_id & CAN_RTR_FLAG) != 0 || !IsCanFdSize(in.len)) {
     return Incoming::kMalformed;
   }
   out = Frame{};
-  out.id = in.can_id;
+  out.extended = (in.can_id & CAN_EFF_FLAG) != 0;
+  out.id = in.can_id & (out.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
   out.size = in.len;
   std::memcpy(out.data.data(), in.data, in.len);
   return Incoming::kFrame;
@@ -111,7 +112,7 @@ Incoming SocketCanTransport::Read(const Datagram& datagram, Frame& out) noexcept
 std::size_t SocketCanTransport::Write(const Frame& frame,
                                       std::span<std::uint8_t, SendBatch::kSlotBytes> out) noexcept {
   canfd_frame frame_out{};
-  frame_out.can_id = frame.id;
+  frame_out.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U);
   frame_out.len = frame.size;
   frame_out.flags = CANFD_BRS;
   std::memcpy(frame_out.data, frame.data.data(), frame.data.size());

@@ -136,8 +136,8 @@ Incoming UdpTransport::Read(const Datagram& datagram, Frame& out) noexcept {
     return Incoming::kNotForUs;
   if (datagram.truncated) return Incoming::kMalformed;
   const Incoming found = UnpackFrame(datagram.bytes, out);
-  const bool foreign =
-      found == Incoming::kFrame && identifiers_ == Identifiers::kOfTheDbc && !IsOfTheDbc(out.id);
+  const bool foreign = found == Incoming::kFrame && identifiers_ == Identifiers::kOfTheDbc &&
+                       (out.extended || !IsOfTheDbc(out.id));
   return foreign ? Incoming::kForeignId : found;
 }
 

@@ -6,12 +6,11 @@
 #include <bit>
 #include <span>
 
-#include "reed/bus/codec/messages.h"
+#include "reed/bus/codec/codec.h"
 #include "reed/bus/transport/transport.h"
 #include "reed/core/controller.h"
 #include "reed/firmware/snapshot/snapshot.h"
 #include "reed/rt/clock.h"
-#include "reed_layout.h"
 
 namespace reed {
 
@@ -22,7 +21,8 @@ static_assert(static_cast<int>(DriveState::kFault) == static_cast<int>(bus::Driv
 template <int N>
 class ArmBus {
  public:
-  explicit ArmBus(bus::Transport& transport) : transport_(transport) {
+  /// transport and codec outlive this object.
+  ArmBus(bus::Transport& transport, bus::ControllerCodec& codec) : transport_(transport), codec_(codec) {
     measurement_.age.fill(Measurement<N>::kNever);
   }
 
@@ -35,7 +35,7 @@ class ArmBus {
     measurement_.unexpected_joint = -1;
     for (int& age : measurement_.age) age = std::min(age + 1, Measurement<N>::kNever);
     measurement_.wrench_age = std::min(measurement_.wrench_age + 1, Measurement<N>::kNever);
-    Send(encoder_.Sync({cycle, bus::layout::kLayoutId}), 0, tap);
+    Send(codec_.Start(cycle), 0, tap);
   }
 
   /// Takes frames until every joint has answered this cycle's SYNC, and the wrench if one came last cycle, or
@@ -67,13 +67,12 @@ class ArmBus {
   int SendCommand(const Command<N>& command, std::int64_t at_ns, telemetry::Snapshot& tap) noexcept {
     bus::CommandMessage message{cycle_, static_cast<bus::DriveRequest>(command.request), {}};
     for (int i = 0; i < N; ++i) message.torque_Nm[static_cast<std::size_t>(i)] = command.torque[i];
-    const std::uint64_t cut = encoder_.counters().clamped;
-    Send(encoder_.Command(message), rt::ShortNs(at_ns), tap);
-    return encoder_.counters().clamped == cut ? -1 : FirstBeyondFrame(command);
+    Send(codec_.Command(message), rt::ShortNs(at_ns), tap);
+    return codec_.CutTorque();
   }
 
   const Measurement<N>& measurement() const noexcept { return measurement_; }
-  const bus::DecodeCounters& decode_counters() const noexcept { return decoder_.counters(); }
+  const bus::DecodeCounters& decode_counters() const noexcept { return codec_.counters(); }
   const bus::TransportCounters& transport_counters() const noexcept { return transport_.counters(); }
   bool alive() const noexcept { return transport_.alive(); }
   std::int64_t late_frames() const noexcept { return late_; }
@@ -88,22 +87,15 @@ class ArmBus {
   int MissingJoints() const noexcept { return N - std::popcount(answered_); }
   int Missing() const noexcept { return MissingJoints() + (wrench_expected_ && !wrench_came_ ? 1 : 0); }
 
-  static int FirstBeyondFrame(const Command<N>& command) noexcept {
-    for (int i = 0; i < N; ++i) {
-      const bus::Bounds carried = bus::layout::kCommandTorque[static_cast<std::size_t>(i)];
-      if (command.torque[i] < carried.min || command.torque[i] > carried.max) return i;
-    }
-    return -1;
-  }
-
-  void Send(const bus::Frame& frame, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
-    transport_.Send(std::span(&frame, 1));
-    tap.AddFrame(frame, telemetry::Direction::kSent, at_ns);
+  void Send(std::span<const bus::Frame> frames, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
+    if (frames.empty()) return;
+    transport_.Send(frames);
+    for (const bus::Frame& frame : frames) tap.AddFrame(frame, telemetry::Direction::kSent, at_ns);
   }
 
   void Take(const bus::Frame& frame, std::int32_t at_ns, telemetry::Snapshot& tap) noexcept {
     tap.AddFrame(frame, telemetry::Direction::kReceived, at_ns);
-    const bus::Decoded decoded = decoder_.Decode(frame);
+    const bus::Decoded decoded = codec_.Read(frame);
     switch (decoded.kind) {
       case bus::MessageKind::kJointState:
         TakeJoint(decoded);
@@ -167,8 +159,7 @@ class ArmBus {
   }
 
   bus::Transport& transport_;
-  bus::Encoder encoder_;
-  bus::Decoder decoder_;
+  bus::ControllerCodec& codec_;
   Measurement<N> measurement_;
   std::array<bus::Frame, 32> received_{};
   std::uint32_t cycle_ = 0;

@@ -2,7 +2,8 @@
 // RT: safe, except the constructor.
 #pragma once
 
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "reed/core/controller.h"
 #include "reed/firmware/arm_bus/arm_bus.h"
@@ -16,8 +17,12 @@ template <int N, int P>
 class Cycle final : public CycleBase {
  public:
   Cycle(const Settings<N, P>& settings, reference::PlannedPath<N> path, bus::Transport& transport,
-        const strategy::ExternalLaw* external)
-      : path_(std::move(path)), bus_(transport), controller_(settings, path_.View(), external) {}
+        std::unique_ptr<bus::ControllerCodec> codec, const strategy::ExternalLaw* external)
+      : path_(std::move(path)),
+        codec_(std::move(codec)),
+        bus_(transport, *codec_),
+        controller_(settings, path_.View(), external),
+        external_(external) {}
 
   CycleStatus Run(std::uint32_t cycle, std::int64_t rx_deadline_ns, const CycleState& loop,
                   telemetry::Snapshot& snapshot) noexcept override {
@@ -66,13 +71,16 @@ class Cycle final : public CycleBase {
     telemetry::FillMeasured(measured, snapshot.measured);
     telemetry::FillControl(controller_, snapshot.control);
     telemetry::FillAdaptation(controller_.strategy().adaptive(), snapshot.adaptation);
+    telemetry::FillLaw(external_, snapshot);
     telemetry::FillBus(bus_.transport_counters(), bus_.decode_counters(), bus_.late_frames(), snapshot.bus);
   }
 
   reference::PlannedPath<N> path_;  // the knots that the controller reads
+  std::unique_ptr<bus::ControllerCodec> codec_;
   ArmBus<N> bus_;
   Controller<N, P> controller_;
   int last_cut_ = -1;  // joint whose command was cut in the last cycle
+  const strategy::ExternalLaw* external_;  // nullptr: a law of the bank
 };
 
 }  // namespace reed

@@ -41,6 +41,14 @@ void FillAdaptation(const strategy::AdaptiveState<N, P>& adaptive, Adaptation& o
   REED_ADAPTATION_T(REED_SET)
 }
 
+/// What a law from outside shows; nothing for the laws of the bank.
+inline void FillLaw(const strategy::ExternalLaw* law, Snapshot& out) noexcept {
+  static_assert(kMaxLawValues == REED_LAW_MAX_VALUES);
+  out.num_law_values = law != nullptr ? law->num_values : 0;
+  for (std::int32_t i = 0; i < out.num_law_values; ++i)
+    out.law_values[static_cast<std::size_t>(i)] = law->output->values[i];
+}
+
 inline void FillBus(const bus::TransportCounters& transport, const bus::DecodeCounters& decoder,
                     std::int64_t late, BusCounters& out) noexcept {
   const auto rejected = [&](bus::Reject reason) {

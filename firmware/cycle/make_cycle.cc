@@ -4,11 +4,14 @@
 #include <string>
 #include <utility>
 
+#include "reed/bus/codec/reed_codec.h"
+
 namespace reed {
 
 template <int N>
 std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::Transport& transport,
-                                        bool start_wanted, const strategy::ExternalLaw* law);
+                                        bool start_wanted, const strategy::ExternalLaw* law,
+                                        std::unique_ptr<bus::ControllerCodec> codec);
 
 namespace {
 
@@ -16,10 +19,12 @@ namespace {
 template <int... N>
 std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const ControllerConfig& scenario,
                                 bus::Transport& transport, bool start_wanted,
-                                const strategy::ExternalLaw* law) {
+                                const strategy::ExternalLaw* law,
+                                std::unique_ptr<bus::ControllerCodec> codec) {
   std::unique_ptr<CycleBase> cycle;
   const bool found =
-      ((scenario.arm.dof() == N && (cycle = MakeCycleFor<N>(scenario, transport, start_wanted, law), true)) ||
+      ((scenario.arm.dof() == N &&
+        (cycle = MakeCycleFor<N>(scenario, transport, start_wanted, law, std::move(codec)), true)) ||
        ...);
   if (!found)
     throw std::runtime_error("arm.joint: " + std::to_string(scenario.arm.dof()) +
@@ -30,8 +35,11 @@ std::unique_ptr<CycleBase> Pick(std::integer_sequence<int, N...>, const Controll
 }  // namespace
 
 std::unique_ptr<CycleBase> MakeCycle(const ControllerConfig& scenario, bus::Transport& transport,
-                                     bool start_wanted, const strategy::ExternalLaw* law) {
-  return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted, law);
+                                     bool start_wanted, const strategy::ExternalLaw* law,
+                                     std::unique_ptr<bus::ControllerCodec> codec) {
+  if (codec == nullptr) codec = std::make_unique<bus::ReedControllerCodec>();
+  return Pick(std::integer_sequence<int, REED_JOINTS>{}, scenario, transport, start_wanted, law,
+              std::move(codec));
 }
 
 }  // namespace reed

@@ -19,7 +19,8 @@ inline constexpr int kLoopParameters = N <= 5 ? 7 : kMaxParameters;
 
 template <int N>
 std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::Transport& transport,
-                                        bool start_wanted, const strategy::ExternalLaw* law) {
+                                        bool start_wanted, const strategy::ExternalLaw* law,
+                                        std::unique_ptr<bus::ControllerCodec> codec) {
   constexpr int P = kLoopParameters<N>;
   if (scenario.arm.num_parameters() > P)
     throw std::runtime_error("arm.param_names: " + std::to_string(scenario.arm.num_parameters()) +
@@ -27,7 +28,8 @@ std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::T
                              std::to_string(P));
   Settings<N, P> settings = SettingsFrom<N, P>(scenario, start_wanted);
   if (law != nullptr) settings.law = strategy::LawId::kExternal;
-  return std::make_unique<Cycle<N, P>>(settings, PathFrom(scenario, settings.arm), transport, law);
+  return std::make_unique<Cycle<N, P>>(settings, PathFrom(scenario, settings.arm), transport,
+                                       std::move(codec), law);
 }
 
 }  // namespace reed

@@ -65,7 +65,7 @@ typedef struct reed_law_input {
 
 typedef struct reed_law_output {
   double torque[8];                   /* [n] N·m, wanted at the joints; the limits have the last word */
-  double values[REED_LAW_MAX_VALUES]; /* anything worth watching, telemetry REED_LAW */
+  double values[REED_LAW_MAX_VALUES]; /* anything worth watching; those that have a name are recorded */
 } reed_law_output;
 
 /* To be implemented by the library. */
@@ -77,7 +77,7 @@ void reed_law_step(const reed_law_input*, void* state, reed_law_output*); /* rea
 
 /* Optional. */
 uint32_t reed_law_traits(void); /* asked after start; absent: REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION */
-const char* const* reed_law_value_names(void); /* up to REED_LAW_MAX_VALUES names, then NULL */
+const char* const* reed_law_value_names(void); /* up to REED_LAW_MAX_VALUES identifiers, then NULL; asked after start */
 void reed_law_stop(void* state);               /* after the loop */
 
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "reed/config/description/config_error.h"
@@ -15,6 +16,16 @@ std::string LoaderReason(const std::string& path) {
   std::string reason = text != nullptr ? text : "unknown reason";
   if (reason.rfind(path + ": ", 0) == 0) reason.erase(0, path.size() + 2);
   return reason;
+}
+
+constexpr std::size_t kLongestName = 40;
+
+/// What a column of a table may be called.
+bool IsIdentifier(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !name.empty() && name.size() <= kLongestName && letter(name[0]) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 template <typename Function>
@@ -77,11 +88,24 @@ void LawPlugin::Start(const LawSetup& setup, const std::string& argument) {
     throw ConfigError("--law " + path_ + (argument.empty() ? "" : ":" + argument) + ": " + refused);
   }
   if (void* traits = Find("reed_law_traits", false)) law_.traits = As<decltype(reed_law_traits)>(traits)();
-  if (void* names = Find("reed_law_value_names", false)) {
-    const char* const* next = As<decltype(reed_law_value_names)>(names)();
-    for (; *next != nullptr && value_names_.size() < REED_LAW_MAX_VALUES; ++next)
-      value_names_.emplace_back(*next);
+  if (void* names = Find("reed_law_value_names", false))
+    TakeValueNames(As<decltype(reed_law_value_names)>(names)());
+}
+
+void LawPlugin::TakeValueNames(const char* const* names) {
+  for (; *names != nullptr; ++names) {
+    const std::string name = *names;
+    if (value_names_.size() == REED_LAW_MAX_VALUES)
+      throw ConfigError("--law " + path_ + ": names more values than reed/law.h has, allowed: " +
+                        std::to_string(REED_LAW_MAX_VALUES));
+    if (!IsIdentifier(name) ||
+        std::find(value_names_.begin(), value_names_.end(), name) != value_names_.end())
+      throw ConfigError("--law " + path_ + ": value " + std::to_string(value_names_.size() + 1) +
+                        " has no name of its own; allowed: different names of up to " +
+                        std::to_string(kLongestName) + " letters, digits and _, a letter first");
+    value_names_.push_back(name);
   }
+  law_.num_values = static_cast<int>(value_names_.size());
 }
 
 std::unique_ptr<LawPlugin> OpenLaw(const std::string& spec, const ControllerConfig& scenario) {

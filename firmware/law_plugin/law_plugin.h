@@ -35,6 +35,7 @@ class LawPlugin {
  private:
   void* Find(const char* name, bool needed) const;
   void Start(const LawSetup& setup, const std::string& argument);
+  void TakeValueNames(const char* const* names);  // of values, then nullptr
 
   std::string path_;
   void* library_ = nullptr;

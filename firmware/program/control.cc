@@ -129,6 +129,7 @@ int ControlArm(const ControlOptions& options, const ControllerConfig& scenario,
     std::fprintf(stderr, "reed_firmware: %s\n", recorder.publish_problem().c_str());
   run_t run = Describe(options, scenario, transport);
   recorder.RecordRun(run);
+  if (plugin != nullptr) recorder.RecordLawNames(plugin->value_names());
   recorder.Start();
 
   const RealTimeRun done = RunInRealTime(options, scenario, loop, transport, *cycle, ring);

@@ -57,7 +57,7 @@ void CandumpLog::Write(const bus::Frame& frame, std::int64_t utime) {
   *at++ = '.';
   at = Decimal(at, utime % kMicroseconds, 6);
   at = std::copy_n(middle_.data(), middle_.size(), at);
-  for (int shift = 8; shift >= 0; shift -= 4) *at++ = kHex[(frame.id >> shift) & 0xF];
+  for (int shift = frame.extended ? 28 : 8; shift >= 0; shift -= 4) *at++ = kHex[(frame.id >> shift) & 0xF];
   at = std::copy_n(kFlags.data(), kFlags.size(), at);
   const std::size_t size = std::min<std::size_t>(frame.size, frame.data.size());
   for (std::size_t i = 0; i < size; ++i) {

@@ -73,6 +73,18 @@ Bytes MessageEncoder::Timing(const Snapshot& snapshot, std::int64_t utime) {
   return Encode(out);
 }
 
+Bytes MessageEncoder::Law(const Snapshot& snapshot, std::int64_t utime) {
+  law_.utime = utime;
+  law_.cycle = snapshot.cycle;
+  law_.num = std::clamp(snapshot.num_law_values, 0, kMaxLawValues);
+  field::CopyField(snapshot.law_values, law_.num, law_.values);
+  return Encode(law_);
+}
+
+Bytes MessageEncoder::LawNames(const std::vector<std::string>& names, std::int64_t utime) {
+  return Encode(reed::law_names_t{utime, static_cast<std::int32_t>(names.size()), names});
+}
+
 Bytes MessageEncoder::Bus(const BusCounters& in, std::int64_t cycle, std::int64_t utime) {
   reed::bus_t& out = bus_;
   out.utime = utime;

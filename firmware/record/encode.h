@@ -9,9 +9,13 @@
 #include <reed/control_t.hpp>
 #include <reed/event_t.hpp>
 #include <reed/histogram_t.hpp>
+#include <reed/law_names_t.hpp>
+#include <reed/law_t.hpp>
 #include <reed/measured_t.hpp>
 #include <reed/run_t.hpp>
 #include <reed/timing_t.hpp>
+#include <string>
+#include <vector>
 
 #include "reed/firmware/snapshot/snapshot.h"
 #include "reed/telemetry/message.h"
@@ -24,6 +28,9 @@ class MessageEncoder {
   Bytes Control(const Snapshot& snapshot, std::int64_t utime);
   Bytes Adaptation(const Snapshot& snapshot, std::int64_t utime);
   Bytes Timing(const Snapshot& snapshot, std::int64_t utime);
+  Bytes Law(const Snapshot& snapshot, std::int64_t utime);
+  /// @throws std::length_error if the names do not fit one datagram
+  Bytes LawNames(const std::vector<std::string>& names, std::int64_t utime);
   Bytes Bus(const BusCounters& counters, std::int64_t cycle, std::int64_t utime);
   /// @param index  of the snapshot's events
   Bytes Event(const Snapshot& snapshot, int index, const char* text, std::int64_t utime);
@@ -39,6 +46,7 @@ class MessageEncoder {
   reed::control_t control_;
   reed::adaptation_t adaptation_;
   reed::timing_t timing_;
+  reed::law_t law_;
   reed::bus_t bus_;
   reed::event_t event_;
   std::array<std::uint8_t, kMaxMessageBytes> buffer_;

@@ -49,9 +49,19 @@ Recorder::Recorder(const RecorderOptions& options, const TimeBase& time, Snapsho
 Recorder::~Recorder() { Stop(); }
 
 void Recorder::RecordRun(reed::run_t run) {
-  run.utime = time_.lockstep() ? last_utime_ : time_.Utime(0, rt::MonotonicClock().NowNs());
+  run.utime = UtimeNow();
   Emit("REED_RUN", encoder_.Run(run), run.utime, true);
   Flush();
+}
+
+void Recorder::RecordLawNames(const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  const std::int64_t utime = UtimeNow();
+  Emit("REED_LAW_NAMES", encoder_.LawNames(names, utime), utime, true);
+}
+
+std::int64_t Recorder::UtimeNow() const {
+  return time_.lockstep() ? last_utime_ : time_.Utime(0, rt::MonotonicClock().NowNs());
 }
 
 void Recorder::Start() {
@@ -124,6 +134,7 @@ void Recorder::Record(const Snapshot& snapshot) {
     Emit("REED_MEASURED", encoder_.Measured(snapshot, utime), utime, publish);
     Emit("REED_CONTROL", encoder_.Control(snapshot, utime), utime, publish);
     Emit("REED_ADAPTATION", encoder_.Adaptation(snapshot, utime), utime, publish);
+    if (snapshot.num_law_values > 0) Emit("REED_LAW", encoder_.Law(snapshot, utime), utime, publish);
     Emit("REED_TIMING", encoder_.Timing(snapshot, utime), utime, publish);
   }
   for (int i = 0; i < snapshot.num_events; ++i) {

@@ -66,6 +66,8 @@ class Recorder {
 
   /// Logs and publishes a run message, with its utime set here. Before Start() or after Stop() only.
   void RecordRun(reed::run_t run);
+  /// Logs and publishes what the law's values are called; nothing where it shows none. As RecordRun.
+  void RecordLawNames(const std::vector<std::string>& names);
 
   /// Starts the thread. Before the real-time scope, whose priority and core it would inherit.
   void Start();
@@ -76,6 +78,7 @@ class Recorder {
   RecorderReport Close();
 
  private:
+  std::int64_t UtimeNow() const;  // before Start() or after Stop()
   void Run();
   bool DrainBatch();  // true: the ring is empty
   void Record(const Snapshot& snapshot);

@@ -1,6 +1,6 @@
 // Everything about one cycle that leaves the loop, as plain bytes: filled by the loop in a ring's slot,
 // turned into messages by an ordinary thread. Name, meaning, unit, frame and sign of every field are declared in the
-// .lcm files and nowhere else. Fields beyond dof, num_parameters, num_events and frame_bytes are never read.
+// .lcm files and nowhere else. Fields beyond dof, num_parameters, num_law_values, num_events and frame_bytes are never read.
 // RT: safe.
 #pragma once
 
@@ -80,12 +80,14 @@ struct Snapshot {
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the cycle's first instruction; not used in lockstep
   std::int32_t dof = 0;
   std::int32_t num_parameters = 0;
+  std::int32_t num_law_values = 0;
   std::int32_t num_events = 0;
   std::int32_t num_frames = 0;
   std::int32_t frames_omitted = 0;  // frames of this cycle that found no room in `frames`
   Measured measured;
   Control control;
   Adaptation adaptation;
+  std::array<double, kMaxLawValues> law_values{};  // of a law from outside: lcmtypes/law_t.lcm
   Timing timing;
   BusCounters bus;
   rt::PhaseHistory phase_history{};  // ns, only read when an event is about time
@@ -113,7 +115,7 @@ struct Snapshot {
       return;
     }
     constexpr std::size_t kShort = 16;
-    const FrameHead head{offset_ns, frame.id, direction, frame.size};
+    const FrameHead head{offset_ns, frame.id, direction, frame.size, frame.extended};
     std::byte* const to = frames.data() + frame_bytes;
     std::memcpy(to, &head, sizeof head);
     std::memcpy(to + sizeof head, frame.data.data(), kShort);
@@ -130,7 +132,7 @@ struct Snapshot {
     for (std::int32_t i = 0; i < num_frames; ++i) {
       FrameHead head;
       std::memcpy(&head, at, sizeof head);
-      RecordedFrame recorded{head.offset_ns, head.direction, {head.id, head.size, {}}};
+      RecordedFrame recorded{head.offset_ns, head.direction, {head.id, head.size, {}, head.extended}};
       std::memcpy(recorded.frame.data.data(), at + sizeof head, head.size);
       use(recorded);
       at += sizeof head + head.size;
@@ -156,6 +158,7 @@ struct Snapshot {
     std::uint32_t id;
     Direction direction;
     std::uint8_t size;
+    bool extended;
   };
 };
 static_assert(std::is_trivially_copyable_v<Snapshot>);

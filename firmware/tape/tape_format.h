@@ -42,7 +42,7 @@ struct FrameBytes {  // then `size` bytes
   std::int32_t offset_ns;
   std::uint32_t id;
   std::uint8_t direction, size;
-  std::uint16_t unused;
+  std::uint16_t extended;  // 1: identifier of 29 bits
 };
 static_assert(sizeof(FrameBytes) == 12);
 

@@ -91,7 +91,7 @@ bool TapeReader::Next(telemetry::Snapshot& s) noexcept {
     FrameBytes head;
     if (at + sizeof head > payload_.size()) return false;
     std::memcpy(&head, payload_.data() + at, sizeof head);
-    bus::Frame frame{head.id, head.size, {}};
+    bus::Frame frame{head.id, head.size, {}, head.extended != 0};
     at += sizeof head;
     if (head.size > frame.data.size() || at + head.size > payload_.size()) return false;
     std::memcpy(frame.data.data(), payload_.data() + at, head.size);

@@ -76,7 +76,8 @@ void TapeWriter::Write(const telemetry::Snapshot& s) {
     Append(&event);
   }
   s.ForEachFrame([this](const telemetry::RecordedFrame& f) {
-    const FrameBytes frame{f.offset_ns, f.frame.id, static_cast<std::uint8_t>(f.direction), f.frame.size, 0};
+    const FrameBytes frame{f.offset_ns, f.frame.id, static_cast<std::uint8_t>(f.direction), f.frame.size,
+                           f.frame.extended};
     Append(&frame);
     Append(f.frame.data.data(), f.frame.size);
   });

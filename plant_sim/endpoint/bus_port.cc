@@ -1,18 +1,29 @@
 #include "reed/plant/endpoint/bus_port.h"
 
+#include <utility>
+
+#include "reed/bus/codec/reed_codec.h"
+
 namespace reed::plant {
+
+BusPort::BusPort(bus::Transport& transport, std::unique_ptr<bus::ArmCodec> codec)
+    : transport_(transport),
+      codec_(codec != nullptr ? std::move(codec) : std::make_unique<bus::ReedArmCodec>()) {}
 
 std::span<const Incoming> BusPort::Receive(std::int64_t deadline_ns) noexcept {
   received_ = transport_.Receive(frames_, 1, deadline_ns);
   std::size_t used = 0;
   for (int i = 0; i < received_; ++i) {
-    if (const auto in = Read(frames_[static_cast<std::size_t>(i)])) incoming_[used++] = *in;
+    const bus::Frame& frame = frames_[static_cast<std::size_t>(i)];
+    for (const bus::Decoded& decoded : codec_->Read(frame)) {
+      const auto in = Read(frame, decoded);
+      if (in && used < incoming_.size()) incoming_[used++] = *in;
+    }
   }
   return std::span(incoming_).first(used);
 }
 
-std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
-  const bus::Decoded decoded = decoder_.Decode(frame);
+std::optional<Incoming> BusPort::Read(const bus::Frame& frame, const bus::Decoded& decoded) noexcept {
   if (decoded.kind == bus::MessageKind::kSync) return ReadSync(frame, decoded);
   if (decoded.kind == bus::MessageKind::kCommand && decoded.reject == bus::Reject::kNone) {
     Incoming in;
@@ -33,8 +44,7 @@ std::optional<Incoming> BusPort::Read(const bus::Frame& frame) noexcept {
 /// frame twice is neither, except that the first one of a run may be the first of a second run: answering t =
 /// 0 once more harms nobody.
 std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept {
-  bus::Decoder fresh;
-  const bus::Decoded own = fresh.Decode(frame);
+  const bus::Decoded own = codec_->ReadAfresh(frame);
   const bool repeated = decoded.reject == bus::Reject::kRepeated;
   if (own.reject != bus::Reject::kNone ||
       (repeated && last_cycle_ == own.sync.cycle && first_cycle_ != own.sync.cycle)) {
@@ -48,7 +58,7 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
       own.sync.cycle - last_cycle_.value_or(own.sync.cycle);  // modulo 2^32, as the number is
   in.new_controller = ahead == 0 || ahead > kLongestGap;
   if (in.new_controller) {
-    decoder_ = fresh;
+    codec_->StartOver(frame);
     first_cycle_ = own.sync.cycle;
   }
   count_ = in.new_controller ? own.sync.cycle : count_ + ahead;
@@ -58,24 +68,17 @@ std::optional<Incoming> BusPort::ReadSync(const bus::Frame& frame, const bus::De
 }
 
 void BusPort::Answer(std::uint32_t cycle, const Measurement& measurement) noexcept {
-  std::array<bus::Frame, kMaxJoints + 1> batch;
-  std::size_t size = 0;
-  for (int i = 0; i < measurement.dof; ++i) {
-    bus::JointStateMessage joint = measurement.joints[static_cast<std::size_t>(i)];
-    joint.cycle_low4 = static_cast<std::uint8_t>(cycle & 0xFU);
-    batch[size++] = encoder_.JointState(i, joint);
+  std::array<bus::JointStateMessage, kMaxJoints> joints = measurement.joints;
+  for (bus::JointStateMessage& joint : joints) joint.cycle_low4 = static_cast<std::uint8_t>(cycle & 0xFU);
+  bus::WrenchMessage wrench;
+  wrench.cycle = cycle;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    wrench.force_N[axis] = measurement.wrench.force_N[static_cast<Eigen::Index>(axis)];
+    wrench.moment_Nm[axis] = measurement.wrench.moment_Nm[static_cast<Eigen::Index>(axis)];
   }
-  if (!measurement.wrench_lost) {
-    bus::WrenchMessage wrench;
-    wrench.cycle = cycle;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      wrench.force_N[axis] = measurement.wrench.force_N[static_cast<Eigen::Index>(axis)];
-      wrench.moment_Nm[axis] = measurement.wrench.moment_Nm[static_cast<Eigen::Index>(axis)];
-    }
-    wrench.saturated = measurement.wrench.saturated;
-    batch[size++] = encoder_.Wrench(wrench);
-  }
-  transport_.Send(std::span<const bus::Frame>(batch).first(size));
+  wrench.saturated = measurement.wrench.saturated;
+  transport_.Send(codec_->Answer(std::span(joints).first(static_cast<std::size_t>(measurement.dof)),
+                                 measurement.wrench_lost ? nullptr : &wrench));
 }
 
 }  // namespace reed::plant

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
-#include "reed/bus/codec/messages.h"
+#include "reed/bus/codec/codec.h"
 #include "reed/bus/transport/transport.h"
 #include "reed/plant/endpoint/robot.h"
 
@@ -23,7 +24,8 @@ struct Incoming {
 
 class BusPort {
  public:
-  explicit BusPort(bus::Transport& transport) : transport_(transport) {}
+  /// codec: of the drives; nullptr: of bus/reed.dbc. transport outlives the port.
+  BusPort(bus::Transport& transport, std::unique_ptr<bus::ArmCodec> codec);
 
   /// Waits for at least one frame until `deadline_ns` (CLOCK_MONOTONIC) and returns what the frames say, in
   /// order; valid until the next call. Frames that may not be used, and those of nobody's concern here, are
@@ -45,14 +47,13 @@ class BusPort {
   /// So many SYNCs may be lost on the way, 1000 s at 1 kHz; a number further ahead is another controller's.
   static constexpr std::uint32_t kLongestGap = 1'000'000;
 
-  std::optional<Incoming> Read(const bus::Frame& frame) noexcept;
+  std::optional<Incoming> Read(const bus::Frame& frame, const bus::Decoded& decoded) noexcept;
   std::optional<Incoming> ReadSync(const bus::Frame& frame, const bus::Decoded& decoded) noexcept;
 
   bus::Transport& transport_;
-  bus::Decoder decoder_;
-  bus::Encoder encoder_;
+  std::unique_ptr<bus::ArmCodec> codec_;
   std::array<bus::Frame, kBatch> frames_;
-  std::array<Incoming, kBatch> incoming_;
+  std::array<Incoming, 2 * kBatch> incoming_;              // a frame may say two things
   std::optional<std::uint32_t> first_cycle_, last_cycle_;  // of the present controller
   int received_ = 0;
   std::int64_t count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reed_layout.h"
 
@@ -12,7 +13,8 @@ constexpr double kShapes_hz = 60.0;  // what an eye can follow
 
 }  // namespace
 
-Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder)
+Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+                   std::unique_ptr<bus::ArmCodec> codec)
     : period_s_(1.0 / config.timing.rate_hz),
       shape_every_cycles_(
           static_cast<std::uint32_t>(std::max(1L, std::lround(config.timing.rate_hz / kShapes_hz)))),
@@ -20,7 +22,7 @@ Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody
       body_(body),
       journal_(recorder),
       robot_(config, body, journal_),
-      port_(transport) {}
+      port_(transport, std::move(codec)) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {
   const auto incoming = port_.Receive(deadline_ns);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "reed/plant/endpoint/bus_port.h"
@@ -14,7 +15,9 @@ namespace reed::plant {
 class Endpoint {
  public:
   /// `transport`, `body` and `recorder` outlive the endpoint.
-  Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder);
+  /// codec: of the drives; nullptr: of bus/reed.dbc.
+  Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+           std::unique_ptr<bus::ArmCodec> codec = nullptr);
   virtual ~Endpoint() = default;
 
   /// Waits for frames until `deadline_ns` (CLOCK_MONOTONIC) and does what they ask. True when any frame was

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reed::plant {
 namespace {
@@ -12,8 +13,8 @@ constexpr std::uint32_t kMaxGapCycles = 1000;
 }  // namespace
 
 LockstepEndpoint::LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
-                                   Recorder& recorder)
-    : Endpoint(config, transport, body, recorder), rate_hz_(config.timing.rate_hz) {}
+                                   Recorder& recorder, std::unique_ptr<bus::ArmCodec> codec)
+    : Endpoint(config, transport, body, recorder, std::move(codec)), rate_hz_(config.timing.rate_hz) {}
 
 void LockstepEndpoint::Handle(std::span<const Incoming> incoming) {
   for (const Incoming& in : incoming) {

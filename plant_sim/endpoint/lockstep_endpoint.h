@@ -15,7 +15,8 @@ namespace reed::plant {
 
 class LockstepEndpoint final : public Endpoint {
  public:
-  LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder);
+  LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+                   std::unique_ptr<bus::ArmCodec> codec = nullptr);
 
  private:
   void Handle(std::span<const Incoming> incoming) override;

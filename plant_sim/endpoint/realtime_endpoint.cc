@@ -14,8 +14,9 @@ EndpointClock EndpointClock::System() {
 }
 
 RealtimeEndpoint::RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
-                                   Recorder& recorder, EndpointClock clock)
-    : Endpoint(config, transport, body, recorder),
+                                   Recorder& recorder, EndpointClock clock,
+                                   std::unique_ptr<bus::ArmCodec> codec)
+    : Endpoint(config, transport, body, recorder, std::move(codec)),
       clock_(std::move(clock)),
       max_step_ns_(std::max<std::int64_t>(1, std::llround(config.plant.max_step_s * 1e9))) {}
 

@@ -24,7 +24,8 @@ struct EndpointClock {
 class RealtimeEndpoint final : public Endpoint {
  public:
   RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
-                   EndpointClock clock = EndpointClock::System());
+                   EndpointClock clock = EndpointClock::System(),
+                   std::unique_ptr<bus::ArmCodec> codec = nullptr);
 
  private:
   /// A simulation that is this far behind gives the time up (and says so) instead of chasing it for ever.

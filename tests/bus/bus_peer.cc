@@ -16,12 +16,12 @@ namespace {
 using namespace reed::bus;
 
 std::string Text(const Frame& frame) {
-  std::string out(2 * std::size_t{frame.size} + 4, '\0');
-  std::snprintf(out.data(), 5, "%03X#", frame.id);
+  char text[10];
+  std::snprintf(text, sizeof text, frame.extended ? "%08X#" : "%03X#", frame.id);
+  std::string out = text;
   for (std::size_t i = 0; i < frame.size; ++i) {
-    char hex[3];
-    std::snprintf(hex, sizeof hex, "%02X", frame.data[i]);
-    out.replace(4 + 2 * i, 2, hex, 2);
+    std::snprintf(text, sizeof text, "%02X", frame.data[i]);
+    out += text;
   }
   return out;
 }
@@ -29,6 +29,7 @@ std::string Text(const Frame& frame) {
 Frame Parse(const std::string& id, const std::string& hex) {
   Frame frame;
   frame.id = static_cast<std::uint32_t>(std::stoul(id, nullptr, 16));
+  frame.extended = id.size() == 8;  // as candump has it
   frame.size = static_cast<std::uint8_t>(hex.size() / 2);
   for (std::size_t i = 0; i < frame.size; ++i) {
     frame.data[i] = static_cast<std::uint8_t>(std::stoul(hex.substr(2 * i, 2), nullptr, 16));
@@ -36,7 +37,10 @@ Frame Parse(const std::string& id, const std::string& hex) {
   return frame;
 }
 
-Frame ParseCandump(const std::string& text) { return Parse(text.substr(0, 3), text.substr(4)); }
+Frame ParseCandump(const std::string& text) {
+  const std::size_t mark = text.find('#');
+  return Parse(text.substr(0, mark), text.substr(mark + 1));
+}
 
 Frame Encode(Encoder& encoder, std::istream& in) {
   std::string kind;

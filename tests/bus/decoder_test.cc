@@ -52,7 +52,10 @@ TEST(Decoder, UnknownIdentifierIsRefusedAndCounted) {
     EXPECT_EQ(got.reject, Reject::kUnknownId);
     EXPECT_EQ(got.kind, MessageKind::kUnknown);
   }
-  EXPECT_EQ(Count(decoder, Reject::kUnknownId), 8U);
+  Frame other = Encoder().Sync({1});
+  other.extended = true;  // the number of SYNC with 29 bits is another identifier
+  EXPECT_EQ(decoder.Decode(other).reject, Reject::kUnknownId);
+  EXPECT_EQ(Count(decoder, Reject::kUnknownId), 9U);
   EXPECT_EQ(decoder.counters().accepted, 0U);
 }
 

@@ -126,10 +126,26 @@ TEST(MsgpackFrame, OtherWidthsOfStringsBinariesFloatsAndMapsAreAccepted) {
   EXPECT_EQ(Read(wide_map), Incoming::kFrame);
 }
 
+TEST(MsgpackFrame, IdentifiersOf29BitsArriveAsTheyWere) {
+  Frame frame;
+  frame.size = 8;
+  frame.extended = true;
+  for (const std::uint32_t id : {0U, 0x7FFU, 0x8001U, 0x1FFFFFFFU}) {
+    frame.id = id;
+    Frame read;
+    ASSERT_EQ(UnpackFrame(Pack(frame), read), Incoming::kFrame);
+    EXPECT_TRUE(read.extended);
+    EXPECT_EQ(read.id, id);
+  }
+  EXPECT_EQ(
+      Read(MapBuilder().Set("is_extended_id", {0xC3}).Set("arbitration_id", {0xCE, 0x20, 0, 0, 0}).Build()),
+      Incoming::kMalformed)
+      << "30 bits";
+}
+
 TEST(MsgpackFrame, WhatIsNoCanFdDataFrameIsMalformed) {
   ASSERT_EQ(Read(MapBuilder().Build()), Incoming::kFrame);
   EXPECT_EQ(Read(MapBuilder().Set("is_fd", {0xC2}).Build()), Incoming::kMalformed) << "classic";
-  EXPECT_EQ(Read(MapBuilder().Set("is_extended_id", {0xC3}).Build()), Incoming::kMalformed) << "29-bit";
   EXPECT_EQ(Read(MapBuilder().Set("is_remote_frame", {0xC3}).Build()), Incoming::kMalformed) << "remote";
   EXPECT_EQ(Read(MapBuilder().Set("arbitration_id", {0xCD, 0x08, 0x00}).Build()), Incoming::kMalformed)
       << "0x800";
@@ -174,7 +190,7 @@ TEST(MsgpackFrame, DamageNeverYieldsAFrameThatCanFdCouldNotCarry) {
     const Incoming got = UnpackFrame(bytes, frame);
     if (got == Incoming::kFrame) {
       ++frames;
-      ASSERT_LE(frame.id, 0x7FFU);
+      ASSERT_LE(frame.id, frame.extended ? 0x1FFFFFFFU : 0x7FFU);
       ASSERT_TRUE(IsCanFdSize(frame.size));
     }
     malformed += got == Incoming::kMalformed ? 1 : 0;

@@ -52,7 +52,7 @@ def test_python_can_reads_what_cpp_writes(bus, address, peer):
 
 def test_cpp_reads_what_python_can_writes(bus, address, peer):
     sent = frames(2)
-    listener = subprocess.Popen([peer, "listen", "udp:%s:%d" % address, str(len(sent))], stdout=subprocess.PIPE, text=True)
+    listener = subprocess.Popen([peer, "listen", "udp:%s:%d" % address, str(len(sent) + 1)], stdout=subprocess.PIPE, text=True)
     assert listener.stdout.readline() == "ready\n"
     bus.send(can.Message(arbitration_id=1, data=b"classic", is_extended_id=False))
     bus.send(can.Message(arbitration_id=0x12345, data=b"extended", is_extended_id=True, is_fd=True))
@@ -60,7 +60,13 @@ def test_cpp_reads_what_python_can_writes(bus, address, peer):
         bus.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False, is_fd=True))
     got = listener.stdout.read().splitlines()
     assert listener.wait(10) == 0
-    assert got == [text(f) for f in sent] + ["malformed 2"]
+    assert got == ["00012345#" + b"extended".hex().upper(), *(text(f) for f in sent), "malformed 1"]
+
+
+def test_identifiers_of_29_bits_travel_as_python_can_writes_them(bus, address, peer):
+    subprocess.run([peer, "send", "udp:%s:%d" % address], input="1F008105#0102\n", text=True, check=True)
+    message = bus.recv(10)
+    assert (message.arbitration_id, message.is_extended_id, bytes(message.data), message.is_fd) == (0x1F008105, True, b"\1\2", True)
 
 
 def test_bytes_of_a_datagram_are_those_of_python_can(address, peer):

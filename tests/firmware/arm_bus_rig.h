@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/bus/codec/reed_codec.h"
 #include "reed/firmware/arm_bus/arm_bus.h"
 #include "reed/tests/support/fake_transport.h"
 
@@ -48,7 +49,8 @@ class ArmBusTest : public ::testing::Test {
 
   test::FakeWire wire_;
   bus::Encoder peer_;
-  ArmBus<kN> bus_{wire_.controller};
+  bus::ReedControllerCodec codec_;
+  ArmBus<kN> bus_{wire_.controller, codec_};
   telemetry::Snapshot tap_;
 };
 

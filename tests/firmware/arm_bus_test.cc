@@ -99,7 +99,8 @@ TEST_F(ArmBusTest, TheFirstWrenchAfterALossMakesTheSameMeasurementsWhetherItIsSe
   for (const bool at_once : {true, false}) {
     test::FakeWire wire;
     bus::Encoder peer;
-    ArmBus<1> bus(wire.controller);
+    bus::ReedControllerCodec codec;
+    ArmBus<1> bus(wire.controller, codec);
     const auto put = [&](const bus::Frame& frame) { wire.plant.Send(std::span(&frame, 1)); };
     const auto joint = [&](std::uint32_t k) {
       return peer.JointState(0, {0.0, 0.0, 0.0, bus::DriveState::kReady, static_cast<std::uint8_t>(k)});
@@ -167,7 +168,8 @@ bool ReceiveIn(ArmBus<kN>& bus, telemetry::Snapshot& tap, std::int64_t begins_in
 
 TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
   HeldUp transport(wire_.controller, 1, 2);
-  ArmBus<kN> bus(transport);
+  bus::ReedControllerCodec codec;
+  ArmBus<kN> bus(transport, codec);
   PutAll(0);
   Put(Wrench(0, 5.0));
   EXPECT_TRUE(ReceiveIn(bus, tap_));
@@ -177,7 +179,8 @@ TEST_F(ArmBusTest, JointsThatAreHeldUpAreWaitedForAndThenTheirWrench) {
 
 TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
   HeldUp transport(wire_.controller, 2, 100);
-  ArmBus<kN> bus(transport);
+  bus::ReedControllerCodec codec;
+  ArmBus<kN> bus(transport, codec);
   PutAll(0);
   EXPECT_TRUE(ReceiveIn(bus, tap_));
   EXPECT_EQ(transport.waits, 2);
@@ -185,7 +188,8 @@ TEST_F(ArmBusTest, AWrenchThatDoesNotComeWithTheJointsIsWaitedForOnce) {
 
 TEST_F(ArmBusTest, ATransportThatGivesUpBeforeItsTimeIsNotAskedAgain) {
   HeldUp transport(wire_.controller, 0, 0);
-  ArmBus<kN> bus(transport);
+  bus::ReedControllerCodec codec;
+  ArmBus<kN> bus(transport, codec);
   EXPECT_FALSE(ReceiveIn(bus, tap_, rt::kNsPerSecond))
       << "later, so that no delay of the host fills the wait";
   EXPECT_EQ(transport.waits, 1);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "reed/bus/codec/messages.h"
 #include "reed/bus/transport/memory_transport.h"
@@ -32,11 +33,15 @@ class SilRig {
   /// Decides about one frame on its way to the controller: false loses it, changes are allowed.
   using OnTheWay = std::function<bool(std::uint32_t cycle, bus::Frame& frame)>;
 
-  explicit SilRig(const Scenario& scenario, bool enable = true)
+  /// Codecs: of the drives; nullptr: of bus/reed.dbc.
+  explicit SilRig(const Scenario& scenario, bool enable = true,
+                  std::unique_ptr<bus::ControllerCodec> controller_codec = nullptr,
+                  std::unique_ptr<bus::ArmCodec> arm_codec = nullptr)
       : scenario_(scenario),
         body_(PlantHalf(scenario_)),
-        endpoint_(PlantHalf(scenario_), wire_.plant, body_, truth_),
-        cycle_(MakeCycle(ControllerHalf(scenario_), wire_.controller, enable)) {
+        endpoint_(PlantHalf(scenario_), wire_.plant, body_, truth_, std::move(arm_codec)),
+        cycle_(MakeCycle(ControllerHalf(scenario_), wire_.controller, enable, nullptr,
+                         std::move(controller_codec))) {
     wire_.controller.OnReceive([this] { LetPlantWork(); });
   }
 

@@ -6,9 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
+from reed_tools.record.signals import join
+from reed_tools.record.telemetry_log import load
 
 BUS = "udp:239.74.163.17:43217"
 EXAMPLE = ROOT / "examples" / "own_law"
@@ -104,6 +107,73 @@ def test_an_installed_package_of_another_version_is_refused(prefix, tmp_path):
     assert done.returncode and "version: 0.2.0" in done.stderr
 
 
+C_LAW_WITH_VALUES = """
+#include <reed/law.h>
+uint32_t reed_law_version(void) { return REED_LAW_VERSION; }
+uint32_t reed_law_traits(void) { return 0; }
+size_t reed_law_state_size(const reed_law_setup* s) { (void)s; return 8; }
+const char* reed_law_start(const reed_law_setup* s, void* state) { (void)s; (void)state; return 0; }
+const char* const* reed_law_value_names(void) { static const char* const names[] = {NAMES}; return names; }
+void reed_law_step(const reed_law_input* in, void* state, reed_law_output* out) {
+  (void)state;
+  for (int i = 0; i < in->joints; ++i) out->torque[i] = 10.0 * in->s[i];
+  out->values[0] = in->time_s;
+  out->values[1] = in->theta[1];
+}
+"""
+PYTHON_LAW_WITH_VALUES = """
+values = ("seconds", "elbow")
+force_loop = deflection = False
+def step(input, state):
+    state.seconds, state.elbow = float(input.time_s), input.theta[1]
+    return 10.0 * input.s
+"""
+
+
+def c_law(prefix: Path, folder: Path, names: str) -> Path:
+    source, library = folder / "shows.c", folder / "shows.so"
+    source.write_text(C_LAW_WITH_VALUES.replace("NAMES", names))
+    done = subprocess.run(["gcc", "-shared", "-fPIC", "-O1", f"-I{prefix / 'include'}", str(source), "-o", str(library)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return library
+
+
+@pytest.mark.parametrize("kind", ["shared library", "Python"])
+def test_what_a_law_shows_is_recorded_under_its_names(prefix, tmp_path, kind):
+    """In the log, in the signals, in summary.json, on the page and in an exported table: time and second angle as REED_MEASURED has it."""
+    if kind == "Python":
+        law = tmp_path / "shows.py"
+        law.write_text(PYTHON_LAW_WITH_VALUES)
+    else:
+        law = c_law(prefix, tmp_path, '"seconds", "elbow", 0')
+    folder = tmp_path / "run"
+    done = reed("run", "press_known", "--duration", "0.5", "--clock", "lockstep", "--bus", "memory", "--out", str(folder), "--law", str(law))
+    assert (folder / "summary.json").exists(), done.stderr
+    recording = load(folder / "telemetry.lcmlog")
+    assert recording.law_names == ["seconds", "elbow"]
+    signals = join(recording)
+    assert signals.law_names.tolist() == ["seconds", "elbow"] and len(signals.t) > 400
+    assert np.array_equal(signals.law_values[:, 0], signals.t) and np.array_equal(signals.law_values[:, 1], signals.position[:, 1])
+    scalars = json.loads((folder / "summary.json").read_text())["scalars"]
+    assert (scalars["law.seconds"]["min"], scalars["law.seconds"]["last"]) == (0.0, signals.t[-1])
+    assert "law.elbow" in (folder / "report.html").read_text()
+    assert reed("export", str(folder), "--to", "csv").returncode == 0
+    head = next(folder.glob("*.csv")).read_text().splitlines()[0].split(",")
+    assert head[-2:] == ["law.seconds", "law.elbow"]
+
+
+def test_a_law_that_shows_nothing_leaves_nothing(example, tmp_path):
+    folder = tmp_path / "run"
+    reed("run", "press_known", "--duration", "0.1", "--clock", "lockstep", "--bus", "memory", "--out", str(folder), "--law", str(example / "libown_law.so"))
+    recording = load(folder / "telemetry.lcmlog")
+    assert recording.law_names == [] and not recording.has("REED_LAW") and recording.has("REED_CONTROL")
+
+
+@pytest.mark.parametrize("names", ['"a", "a", 0', '"", 0', '"1st", 0', '"a b", 0', ", ".join(f'"n{k}"' for k in range(9)) + ", 0"])
+def test_names_that_no_column_can_have_are_refused(prefix, tmp_path, names):
+    refuse(tmp_path, "allowed: ", "--law", str(c_law(prefix, tmp_path, names)))
+
+
 REFUSED = {"another version": (dict(version=7), "built for version 7 of reed/law.h, allowed: 1"),
            "another number of joints": (dict(joints=4), "written for another number of joints"),
            "a missing function": (dict(sin="(void)0", defines=("-DWITHOUT_VERSION",)), "the function reed_law_version is missing")}
@@ -124,7 +194,9 @@ def test_a_file_that_is_no_library_is_refused(tmp_path):
     refuse(tmp_path, "there is no file", "--law", str(tmp_path / "nowhere.so"))
 
 
-PYTHON_LAWS = {"def step(input, state):\n    return input.s[:2]\n": "step returned an array of shape (2,); allowed: (5,)",
+PYTHON_LAWS = {"values = ('x',)\ndef step(input, state):\n    return input.s\n": "values names x, and state.x is no number after step",
+               "values = ('x y',)\ndef step(input, state):\n    return input.s\n": "values = ('x y',); allowed: up to 8 different names",
+               "def step(input, state):\n    return input.s[:2]\n": "step returned an array of shape (2,); allowed: (5,)",
                "def step(input, state):\n    return 1 / 0\n": "line 2: ZeroDivisionError",
                "def stop(input, state):\n    pass\n": "there is no function step(input, state)",
                "def step(input, state)\n": "SyntaxError"}

@@ -3,11 +3,13 @@
 // the interpreter and the server (REED_LAW_PYTHON, REED_LAW_SERVER).
 //
 // Down the pipe, native byte order: int32 count of doubles, then the doubles in the order of Ask().
-// Up: int32 joints and the torques (at the start also the traits), or int32 -length and a line that says what is wrong.
+// Up: int32 count, the torques and the named values (at the start also the traits, then int32 length and the names, one a
+// line), or int32 -length and a line that says what is wrong.
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -20,9 +22,14 @@
 namespace {
 
 constexpr int kMostJoints = 8, kMostParameters = 12, kMostText = 400;
+constexpr int kMostAnswers = kMostJoints + REED_LAW_MAX_VALUES + 1;  // torques, values, traits
 constexpr int kMostNumbers = 8 + kMostJoints * 11 + kMostParameters * (kMostJoints + 1);
 
-std::uint32_t traits = 0;  // of the one law of this process
+// Of the one law of this process.
+std::uint32_t traits = 0;
+int num_values = 0;
+std::array<char, kMostText> name_text{};
+std::array<const char*, REED_LAW_MAX_VALUES + 1> names{};  // into name_text, nullptr behind the last
 
 struct State {
   int pipe;
@@ -82,15 +89,30 @@ void Ask(const reed_law_input& in, Numbers& out) noexcept {
 }
 
 /// False: text holds what the server said, or that it is gone.
-bool Answer(State& state, int joints, double* torque) noexcept {
+bool Answer(State& state, int wanted, double* numbers) noexcept {
   std::int32_t count = 0;
   std::strcpy(state.text, "the Python process has ended");
   if (!ReadAll(state.pipe, &count, sizeof count)) return false;
-  if (count == joints) return ReadAll(state.pipe, torque, static_cast<std::size_t>(joints) * sizeof(double));
+  if (count == wanted) return ReadAll(state.pipe, numbers, static_cast<std::size_t>(wanted) * sizeof(double));
   const std::size_t length = static_cast<std::size_t>(count < 0 ? -count : 0);
   if (length >= sizeof state.text || !ReadAll(state.pipe, state.text, length)) return false;
   state.text[length] = '\0';
   return false;
+}
+
+/// The names of the values, one a line; the server has checked them.
+bool ReadNames(State& state) noexcept {
+  std::int32_t length = 0;
+  if (!ReadAll(state.pipe, &length, sizeof length) || length < 0 || length >= kMostText) return false;
+  if (!ReadAll(state.pipe, name_text.data(), static_cast<std::size_t>(length))) return false;
+  char* next = name_text.data();
+  while (*next != '\0' && num_values < REED_LAW_MAX_VALUES) {
+    names[static_cast<std::size_t>(num_values++)] = next;
+    next = std::strchr(next, '\n');
+    if (next == nullptr) break;
+    *next++ = '\0';
+  }
+  return true;
 }
 
 const char* StartServer(State& state, const char* file) {
@@ -129,8 +151,8 @@ const char* reed_law_start(const reed_law_setup* setup, void* memory) {
     question.Add(value);
   for (const double* values : {setup->K_d, setup->Lambda, setup->J_m}) question.Add(values, setup->joints);
   question.Add(setup->p_0, setup->parameters);
-  std::array<double, kMostJoints + 1> first{};  // the torques of its trial, and the law's traits
-  if (question.Send(state.pipe) && Answer(state, setup->joints + 1, first.data())) {
+  std::array<double, kMostAnswers> first{};  // the torques of its trial, and the law's traits
+  if (question.Send(state.pipe) && Answer(state, setup->joints + 1, first.data()) && ReadNames(state)) {
     traits = static_cast<std::uint32_t>(first[static_cast<std::size_t>(setup->joints)]);
     return nullptr;
   }
@@ -140,11 +162,18 @@ const char* reed_law_start(const reed_law_setup* setup, void* memory) {
 
 uint32_t reed_law_traits(void) { return traits; }
 
+const char* const* reed_law_value_names(void) { return names.data(); }
+
 void reed_law_step(const reed_law_input* in, void* memory, reed_law_output* out) {
   State& state = *static_cast<State*>(memory);
   Numbers question;
   Ask(*in, question);
-  if (question.Send(state.pipe) && Answer(state, in->joints, out->torque)) return;
+  std::array<double, kMostAnswers> numbers{};
+  if (question.Send(state.pipe) && Answer(state, in->joints + num_values, numbers.data())) {
+    std::copy_n(numbers.begin(), in->joints, out->torque);
+    std::copy_n(numbers.begin() + in->joints, num_values, out->values);
+    return;
+  }
   for (int i = 0; i < in->joints; ++i)
     out->torque[i] = std::numeric_limits<double>::quiet_NaN();  // trips: not finite
   static bool said = false;

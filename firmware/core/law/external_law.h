@@ -10,6 +10,7 @@ struct ExternalLaw {
   void* state = nullptr;
   std::uint32_t traits = REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION;
   reed_law_output* output = nullptr;  // of the last step, for telemetry
+  int num_values = 0;                 // of output->values that the law has named
 };
 
 }  // namespace reed::strategy

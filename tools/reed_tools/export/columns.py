@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reed_tools.record.message_layout import SCALARS, Field, fields
+from reed_tools.record.telemetry_log import Recording
 
 SIZES = ("dof", "num")  # fields that only say how long the arrays are
 
@@ -18,19 +19,25 @@ class Column:
     values: np.ndarray  # one per message
 
 
-def suffixes(field: Field, count: int, parameters: list[str]) -> list[str]:
-    """Joints by number, axes by letter, parameters by name where names can be part of one."""
+def entry_names(recording: Recording, channel: str, parameters: list[str]) -> list[str]:
+    """Of the entries of a channel's arrays, where they have names: parameters, values of a law from outside."""
+    return {"REED_ADAPTATION": parameters, "REED_LAW": recording.law_names}.get(channel, [])
+
+
+def suffixes(field: Field, count: int, names: list[str]) -> list[str]:
+    """Joints by number, axes by letter, the rest by name where names can be part of one."""
     if field.length == "dof":
         return [f"j{k + 1}" for k in range(count)]
     if field.length == "3":
         return ["x", "y", "z"]
-    if len(parameters) == count and all(name.isascii() and name.isidentifier() for name in parameters):
-        return parameters
+    if len(names) == count and all(name.isascii() and name.isidentifier() for name in names):
+        return names
     return [str(k + 1) for k in range(count)]
 
 
-def flatten(type_name: str, table: dict[str, np.ndarray], parameters: list[str]) -> list[Column]:
-    """The columns of one channel. parameters: the names of p, for arrays of that length in adaptation_t."""
+def flatten(type_name: str, table: dict[str, np.ndarray], names: list[str]) -> list[Column]:
+    """The columns of one channel. names: of the entries of its arrays, as entry_names gives them. A value of a law is called as
+    the law calls it."""
     columns = []
     for field in fields(type_name):
         values = table[field.name]
@@ -39,8 +46,9 @@ def flatten(type_name: str, table: dict[str, np.ndarray], parameters: list[str])
         if values.ndim == 1:
             columns.append(Column(field.name, field.kind, field.unit, field.comment, values))
             continue
-        names = suffixes(field, values.shape[1], parameters if type_name == "adaptation_t" else [])
-        columns += [Column(f"{field.name}_{name}", field.kind, field.unit, field.comment, values[:, k]) for k, name in enumerate(names)]
+        head = "" if type_name == "law_t" else f"{field.name}_"
+        columns += [Column(f"{head}{name}", field.kind, field.unit, field.comment, values[:, k])
+                    for k, name in enumerate(suffixes(field, values.shape[1], names))]
     return columns
 
 

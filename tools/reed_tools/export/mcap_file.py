@@ -8,7 +8,7 @@ from mcap.writer import CompressionType, Writer
 from mcap_protobuf.schema import build_file_descriptor_set
 
 from reed_tools.export import proto, scene
-from reed_tools.export.columns import flatten, table_of
+from reed_tools.export.columns import entry_names, flatten, table_of
 from reed_tools.record.message_layout import fields
 from reed_tools.record.telemetry_log import SINGLES, TABLES, Recording
 
@@ -53,7 +53,9 @@ class File:
 def write(recording: Recording, effective: dict, target: Path) -> list[Path]:
     with open(target, "wb") as raw:
         file = File(raw)
-        tables = {channel: flatten(name, recording.tables[channel], effective["arm"]["param_names"]) for channel, name in TABLES.items()}
+        parameters = effective["arm"]["param_names"]
+        tables = {channel: flatten(name, recording.tables[channel], entry_names(recording, channel, parameters))
+                  for channel, name in TABLES.items() if channel != "REED_LAW" or recording.has(channel)}
         tables[COUNTERS] = flatten(SINGLES[COUNTERS], table_of(SINGLES[COUNTERS], recording.singles[COUNTERS]), [])
         for channel, columns in tables.items():
             add_columns(file, channel, columns)

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools.export.columns import Column, flatten, table_of
+from reed_tools.export.columns import Column, entry_names, flatten, table_of
 from reed_tools.record.telemetry_log import SINGLES, TABLES, Recording
 
-CYCLIC = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_TIMING", "REED_PLANT", "REED_BUS")
+CYCLIC = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_TIMING", "REED_PLANT", "REED_BUS", "REED_LAW")
 EVENTS = ("REED_EVENT", "REED_PLANT_EVENT")
 
 
@@ -23,8 +23,9 @@ class Row:
 
 def cyclic_rows(recording: Recording, parameters: list[str]) -> tuple[np.ndarray, list[Row]]:
     """The cycles, and every column over them. A cycle that a channel recorded twice is there with its last message."""
-    tables = {channel: flatten(TABLES[channel], recording.tables[channel], parameters) if channel in TABLES else
-              flatten(SINGLES[channel], table_of(SINGLES[channel], recording.singles[channel]), parameters) for channel in CYCLIC}
+    channels = [channel for channel in CYCLIC if channel != "REED_LAW" or recording.has(channel)]
+    tables = {channel: flatten(TABLES[channel], recording.tables[channel], entry_names(recording, channel, parameters)) if channel in TABLES else
+              flatten(SINGLES[channel], table_of(SINGLES[channel], recording.singles[channel]), []) for channel in channels}
     own = {channel: next(column.values for column in columns if column.name == "cycle") for channel, columns in tables.items()}
     cycles = np.unique(np.concatenate(list(own.values()))).astype(np.int64)
     rows = []

@@ -9,6 +9,7 @@ from reed_tools.record.message_layout import fields
 from reed_tools.record.signals import ACTIVE
 from reed_tools.record.telemetry_log import DIGEST_CHANNELS, TABLES, Recording
 
+LAW = "of the law from outside"
 TIME = "t_s"  # says when, and is no figure
 
 
@@ -34,6 +35,11 @@ def of_run(recording: Recording) -> dict[str, dict]:
             continue
         for field in declared(channel):
             found[name_of(channel, field.name)] = {"unit": field.unit, "meaning": field.comment, **ranges(table[field.name][rows])}
+    law = recording.tables["REED_LAW"]
+    rows = np.isin(law["cycle"], cycles)
+    if rows.any():
+        for name, values in zip(recording.law_names, law["values"][rows].T):
+            found[name_of("REED_LAW", name)] = {"unit": "", "meaning": LAW, **ranges(values)}
     return found
 
 

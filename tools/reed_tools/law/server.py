@@ -2,18 +2,26 @@
 
 FILE.py has one function, step(input, state) -> torque: `input` has what reed/law.h names, as numpy arrays, Y with a row per joint;
 `state` is an object that keeps whatever the law puts on it, and knows K_d and Lambda. torque: one number per joint, N·m.
-FILE.py may set force_loop = False (v does not carry the force error) and deflection = False (theta_d as planned)."""
+`values = ("name", …)` in FILE.py names attributes of `state` that are recorded every cycle, numbers. FILE.py may set force_loop = False (v does not carry the force error) and deflection = False (theta_d as planned)."""
 
 import os
 import struct
 import sys
 import traceback
 from types import SimpleNamespace
+from typing import Callable, NamedTuple
 
 import numpy as np
 
 FORCE_LOOP, DEFLECTION = 1, 2  # reed/law.h
+MOST_VALUES, LONGEST_NAME = 8, 40
 PER_JOINT = ("theta", "theta_dot", "theta_d", "theta_d_dot", "theta_d_ddot", "v", "v_dot", "s", "f_known", "J_m", "Jt_F_d")
+
+
+class Law(NamedTuple):
+    step: Callable
+    traits: int
+    values: tuple[str, ...]  # recorded attributes of its state
 
 
 class LawError(Exception):
@@ -49,14 +57,22 @@ def where(error: BaseException, file: str) -> str:
     return f"{f'line {lines[-1]}: ' if lines else ''}{type(error).__name__}: {error}"
 
 
-def load(file: str):
+def value_names(wanted) -> tuple[str, ...]:
+    names = (wanted,) if isinstance(wanted, str) else tuple(wanted)
+    if len(names) > MOST_VALUES or len(set(names)) < len(names) or not all(
+            isinstance(name, str) and name.isascii() and name.isidentifier() and name[0] != "_" and len(name) <= LONGEST_NAME for name in names):
+        raise LawError(f"values = {names}; allowed: up to {MOST_VALUES} different names of up to {LONGEST_NAME} letters, digits and _, a letter first")
+    return names
+
+
+def load(file: str) -> Law:
     scope = {"__name__": "law", "__file__": file}
     with open(file, encoding="utf-8") as source:
         exec(compile(source.read(), file, "exec"), scope)  # the user's own law
     if not callable(scope.get("step")):
         raise LawError("there is no function step(input, state)")
     traits = scope.get("force_loop", True) * FORCE_LOOP + scope.get("deflection", True) * DEFLECTION
-    return scope["step"], traits
+    return Law(scope["step"], traits, value_names(scope.get("values", ())))
 
 
 def unpack(values: np.ndarray) -> SimpleNamespace:
@@ -73,11 +89,19 @@ def unpack(values: np.ndarray) -> SimpleNamespace:
     return out
 
 
-def torque_of(step, question: SimpleNamespace, state: SimpleNamespace) -> np.ndarray:
-    torque = np.ascontiguousarray(step(question, state), dtype=np.float64)
+def torque_of(law: Law, question: SimpleNamespace, state: SimpleNamespace) -> np.ndarray:
+    torque = np.ascontiguousarray(law.step(question, state), dtype=np.float64)
     if torque.shape != (question.joints,):
         raise LawError(f"step returned an array of shape {torque.shape}; allowed: ({question.joints},), one torque per joint")
     return torque
+
+
+def shown(law: Law, state: SimpleNamespace) -> np.ndarray:
+    """The values to record."""
+    for name in law.values:
+        if not isinstance(getattr(state, name, None), (int, float, np.floating, np.integer)):
+            raise LawError(f"values names {name}, and state.{name} is no number after step; allowed: a number")
+    return np.array([getattr(state, name) for name in law.values], dtype=np.float64)
 
 
 def start(file: str):
@@ -86,19 +110,25 @@ def start(file: str):
     n, m = int(values[0]), int(values[1])
     at = 3 + np.arange(3) * n
     K_d, Lambda, J_m = (values[a:a + n] for a in at)
-    step, traits = load(file)
+    law = load(file)
     zero = {name: np.zeros(n) for name in PER_JOINT}
     still = SimpleNamespace(joints=n, parameters=m, period_s=values[2], time_s=0.0, adapt=False, source=0, f_n=0.0,
                             p_0=values[3 + 3 * n:3 + 3 * n + m], Y=np.zeros((n, m)), **{**zero, "J_m": J_m})
-    answer(np.append(torque_of(step, still, SimpleNamespace(K_d=K_d, Lambda=Lambda)), traits))
-    return step, SimpleNamespace(K_d=K_d, Lambda=Lambda)
+    trial = SimpleNamespace(K_d=K_d, Lambda=Lambda)
+    torque = torque_of(law, still, trial)
+    shown(law, trial)
+    answer(np.append(torque, law.traits))
+    text = "\n".join(law.values).encode()
+    os.write(0, struct.pack("=i", len(text)) + text)
+    return law, SimpleNamespace(K_d=K_d, Lambda=Lambda)
 
 
 def main(file: str) -> None:
     try:
-        step, state = start(file)
+        law, state = start(file)
         while True:
-            answer(torque_of(step, unpack(numbers()), state))
+            torque = torque_of(law, unpack(numbers()), state)
+            answer(np.append(torque, shown(law, state)))
     except (EOFError, BrokenPipeError):
         return
     except LawError as error:

@@ -1,6 +1,6 @@
 """The recorded channels joined by cycle: what the figures and the plots are made from. SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class Signals:
     sigma: np.ndarray             # N·m·s/rad, N·m: (40), (41), [n, 2]
     source: np.ndarray            # index into SOURCES
     has_wall: bool
+    law_names: np.ndarray = field(default_factory=lambda: np.array([], dtype=str))  # of the values that a law from outside shows
+    law_values: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))        # units of the law, [n, number of names]
 
     @property
     def dof(self) -> int:
@@ -88,4 +90,15 @@ def join(recording: Recording) -> Signals | None:
         observer=pick(control, "observer"), torque=pick(control, "tau"), p_hat=pick(adaptation, "p_hat"),
         eta_hat=pick(adaptation, "eta_hat"),
         sigma=np.stack([pick(adaptation, "sigma0"), pick(adaptation, "sigma1")], axis=1), source=pick(control, "force_source"),
-        has_wall=bool(np.any(pick(plant, "gap") < 1e8)))
+        has_wall=bool(np.any(pick(plant, "gap") < 1e8)), law_names=np.array(recording.law_names, dtype=str),
+        law_values=law_values(recording, cycles))
+
+
+def law_values(recording: Recording, cycles: np.ndarray) -> np.ndarray:
+    """One column per name; a cycle that was not recorded is no number."""
+    law = recording.tables["REED_LAW"]
+    found = np.full((len(cycles), len(recording.law_names)), np.nan)
+    if found.size and len(law["cycle"]):
+        _, to, row = np.intersect1d(cycles, law["cycle"], return_indices=True)
+        found[to] = law["values"][row]
+    return found

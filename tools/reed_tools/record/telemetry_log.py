@@ -16,9 +16,9 @@ from reed_tools.record.message_layout import decode_all, joined
 # Fixed order: it is part of the digest's definition.
 DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")
 TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
-          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t"}
+          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t", "REED_LAW": "law_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t",
-           "REED_HISTOGRAM": "histogram_t"}
+           "REED_HISTOGRAM": "histogram_t", "REED_LAW_NAMES": "law_names_t"}
 LEAST_BYTES = 16     # of a message of ours: fingerprint and utime
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
@@ -43,6 +43,12 @@ class Recording:
     def finished_run(self):
         """What the firmware reported of the loop at its end; None without that report."""
         return self.run if self.run and self.run.finished else None
+
+    @property
+    def law_names(self) -> list[str]:
+        """What a law from outside calls the values that it shows; empty where it shows none."""
+        said = self.singles.get("REED_LAW_NAMES")
+        return list(said[-1].names) if said else []
 
     def digest(self, clock: str) -> str:
         """SHA-256 over the SHA-256 of each channel's encoded messages in cycle order. The plant's truth belongs to it in
