@@ -7,7 +7,7 @@ import pytest
 
 from reed_tools import cli
 from reed_tools.errors import UsageError
-from reed_tools.gate import commits, corpus, trial, versions_built
+from reed_tools.gate import command, commits, corpus, trial, versions_built
 from reed_tools.paths import BUILD, build
 from reed_tools.run import joints
 
@@ -58,6 +58,17 @@ def test_the_corpus_covers_what_it_promises(tmp_path):
             assert 100 < len(result.recorded) < 3000, "a tape shows one thing"
             seen.add(result.recorded)
     assert set(seen.lacks(known.coverage)) == {name.replace("joints", "joints ") for name in without}
+
+
+def test_no_more_numbers_of_joints_are_built_than_are_needed(tmp_path):
+    known = corpus.load()
+    assert {entry.name: entry.joints for entry in known.tapes if entry.name.startswith("joints")} == {f"joints{n}": n for n in (2, 3, 4, 6, 7, 8)}
+    assert command.joints_of([entry for entry in known.tapes if entry.scenario in ("press_known", "joints2")], known) == [2, 5]
+    assert command.joints_of(known.tapes, known) == known.coverage["joints"]
+    assert command.joints_of([corpus.Entry("x", "of another version")], known) == known.coverage["joints"]
+    (tmp_path / "CMakeCache.txt").write_text("REED_JOINTS:STRING=5;7\n")
+    assert versions_built.with_those_before(tmp_path, [2, 5]) == "2;5;7"
+    assert versions_built.with_those_before(tmp_path / "none", [2]) == "2"
 
 
 def test_what_the_tapes_do_not_show_is_named():

@@ -3,6 +3,7 @@
 import json
 import resource
 import shutil
+import signal
 import struct
 import subprocess
 import time
@@ -14,6 +15,7 @@ import pytest
 
 from reed_tools import cli
 from reed_tools.errors import UsageError
+from reed_tools.law import choice as law_choice
 from reed_tools.paths import PYTHON, ROOT, build, program
 from reed_tools.record import tape
 from reed_tools.replay import differences
@@ -94,6 +96,76 @@ def test_a_run_on_the_clock_replays_to_the_bit_however_late_the_machine_was(tmp_
     assert recorded["loop.degrade"].any() or recorded["timing.compute_over"][-1] > 0, "budgets were broken, and replayed"
 
 
+def test_held_up_programs_and_late_frames_replay_to_the_bit(tmp_path, capsys):
+    """Both programs are stopped for some ms again and again."""
+    build("reed_firmware", "reed_plant_sim")
+    scenario.write_effective("press_known", None, ["scenario.duration_s=20", "timing.max_missed_in_row=1000", "timing.overrun=hold",
+                                                   "limits.stop_age_cycles=900"], tmp_path / "effective.toml")
+    common = ["--config", str(tmp_path / "effective.toml"), "--bus", BUS, "--clock", "realtime", "--no-lcm"]
+    with open(tmp_path / "output.txt", "wb") as output:
+        plant = subprocess.Popen([str(program("reed_plant_sim")), *common], stdout=output, stderr=output)
+        time.sleep(0.5)
+        firmware = subprocess.Popen([str(program("reed_firmware")), *common, "--enable", "--tape", str(tmp_path / tape.NAME)], stdout=output, stderr=output)
+        try:
+            time.sleep(1.0)
+            for turn in range(24):
+                one = (plant, firmware)[turn % 2]
+                one.send_signal(signal.SIGSTOP)
+                time.sleep(0.004)
+                one.send_signal(signal.SIGCONT)
+                time.sleep(0.03)
+            firmware.send_signal(signal.SIGINT)
+            firmware.wait(20)
+        finally:
+            for one in (firmware, plant):
+                one.kill()
+                one.wait()
+    recorded = tape.read(tmp_path / tape.NAME)
+    assert recorded["timing.missed"][-1] > 0 and recorded["loop.gap"].any() and recorded["loop.hold"].any(), (tmp_path / "output.txt").read_text()
+    assert recorded["bus.late"][-1] > 0, "late frames"
+    status, said, problem = reed(capsys, tmp_path)
+    assert status == 0 and said.startswith(f"same: {recorded.usable()} cycles"), said + problem
+    assert recorded.usable() > 100
+
+
+def long_run(folder):
+    """30 s of lockstep, and how to wait until some of it is on the tape."""
+    scenario.write_effective("drift_30s", None, [], folder / "effective.toml")
+    with open(folder / "output.txt", "wb") as output:
+        both = subprocess.Popen([str(program("reed_one_process")), "--config", str(folder / "effective.toml"), "--no-lcm", "--enable",
+                                 "--tape", str(folder / tape.NAME)], stdout=output, stderr=output)
+    patience = time.monotonic() + 60
+    while time.monotonic() < patience and not ((folder / tape.NAME).exists() and (folder / tape.NAME).stat().st_size > 1_000_000):
+        time.sleep(0.05)
+    return both
+
+
+def test_the_operators_stop_replays_in_its_cycle(tmp_path, capsys):
+    both = long_run(tmp_path)
+    both.send_signal(signal.SIGINT)
+    both.wait(30)
+    recorded = tape.read(tmp_path / tape.NAME)
+    stop = recorded["loop.stop_wanted"]
+    assert recorded.complete and stop[-1] and not stop[len(stop) // 2], "some cycles before the end"
+    assert recorded["control.mode"][-1] == 0
+    status, said, problem = reed(capsys, tmp_path)
+    assert status == 0 and said.startswith("same: "), said + problem
+
+
+def test_a_law_from_outside_replays_with_its_file_and_is_named_when_it_is_gone(tmp_path, capsys):
+    law = tmp_path / "own_law.py"
+    shutil.copy(ROOT / "examples" / "own_law" / "own_law.py", law)
+    chosen = law_choice.choose(str(law), "lockstep")
+    effective = scenario.write_effective("free_motion", None, ["scenario.duration_s=0.2"], tmp_path / "effective.toml", halves=True)
+    hil.run(plans.make(effective, tmp_path / "effective.toml", hil.MEMORY, "lockstep", tmp_path, lcm=False, law=chosen.spec,
+                       environment=chosen.environment), lambda mode, t_s: None)
+    status, said, problem = reed(capsys, tmp_path)
+    assert status == 0 and said.startswith("same: "), said + problem
+    law.unlink()
+    status, _, problem = reed(capsys, tmp_path)
+    assert status == 2 and "is not there any more; --law names where it is now" in problem and problem.count("\n") == 1
+
+
 def with_bit(value: float) -> float:
     """The neighbour of a number: one bit further."""
     return struct.unpack("<d", struct.pack("<Q", struct.unpack("<Q", struct.pack("<d", value))[0] ^ 1))[0]
@@ -148,19 +220,13 @@ def test_a_tape_that_was_cut_anywhere_is_read_up_to_its_last_whole_cycle(tapes, 
 
 
 def test_a_program_that_was_killed_leaves_a_tape_up_to_its_last_second(tmp_path, capsys):
-    effective = scenario.write_effective("drift_30s", None, [], tmp_path / "effective.toml", halves=True)
-    with open(tmp_path / "output", "wb") as output:
-        both = subprocess.Popen([str(program("reed_one_process")), "--config", str(tmp_path / "effective.toml"), "--no-lcm", "--enable",
-                                 "--tape", str(tmp_path / tape.NAME)], stdout=output, stderr=output)
-    patience = time.monotonic() + 60
-    while time.monotonic() < patience and not ((tmp_path / tape.NAME).exists() and (tmp_path / tape.NAME).stat().st_size > 1_000_000):
-        time.sleep(0.05)
+    both = long_run(tmp_path)
     both.kill()
     both.wait()
     found = tape.read(tmp_path / tape.NAME)
-    assert 100 < len(found) < (effective["scenario"]["duration_s"] + 5) * 1000 and not found.complete
+    assert 100 < len(found) < 35_000 and not found.complete
     status, said, _ = reed(capsys, tmp_path)
-    assert status == 0 and "without its end" in said or "cut or damaged" in said
+    assert status == 0 and said.startswith(f"same: {len(found)} cycles") and ("without its end" in said or "cut or damaged" in said)
 
 
 def test_another_value_in_the_configuration_is_a_what_if_with_plots(tapes, tmp_path, capsys):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools.errors import UsageError
-from reed_tools.paths import ROOT, SCENARIOS
+from reed_tools.paths import ARMS, ROOT, SCENARIOS
 from reed_tools.record.tape import Tape
 
 FILE = ROOT / "config" / "gate" / "corpus.toml"
@@ -19,6 +19,17 @@ class Entry:
     scenario: str
     arm: str | None = None
     entries: tuple[str, ...] = ()
+
+    @property
+    def joints(self) -> int | None:
+        """As the files here say; None where they do not."""
+        try:
+            arm = self.arm or read_toml(SCENARIOS / f"{self.scenario}.toml" if "/" not in self.scenario else Path(self.scenario))["arm"]
+            if isinstance(arm, str):
+                arm = read_toml(ARMS / f"{arm}.toml" if "/" not in arm else Path(arm))
+            return len(arm["dh"] if "dh" in arm else arm["joints"])
+        except (OSError, KeyError, TypeError, ValueError):
+            return None
 
     def options(self) -> list[str]:
         """Of a program that reads scenarios."""
@@ -33,9 +44,13 @@ class Corpus:
     longest_s: float  # of a scenario
 
 
+def read_toml(path: Path) -> dict:
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
 def load(path: Path = FILE) -> Corpus:
     try:
-        found = tomllib.loads(path.read_text(encoding="utf-8"))
+        found = read_toml(path)
         tapes = [Entry(one["name"], located(path, one["scenario"]), one.get("arm") and located(path, one["arm"]), tuple(one.get("set", ())))
                  for one in found["tapes"]]
         return Corpus(tapes, found["coverage"], float(found["scenarios"]["longest_s"]))
@@ -52,7 +67,7 @@ def scenarios(longest_s: float) -> list[Entry]:
     """Those of config/scenarios, long ones cut."""
     found = []
     for path in sorted(SCENARIOS.glob("*.toml")):
-        duration_s = tomllib.loads(path.read_text(encoding="utf-8")).get("scenario", {}).get("duration_s", longest_s)
+        duration_s = read_toml(path).get("scenario", {}).get("duration_s", longest_s)
         found.append(Entry(path.stem, path.stem, None, (f"scenario.duration_s={longest_s}",) if duration_s > longest_s else ()))
     return found
 

@@ -1,6 +1,7 @@
 """A commit checked out and built in build/gate/<hash>: kept for the next gate, the oldest ones removed."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -16,21 +17,27 @@ KEPT = 4  # trees with their builds, about 150 MB each
 TARGETS = ("reed_one_process", "reed_replay", "reed_config_tool")
 
 
-def programs(commit: str, joints: str) -> Path:
-    """The folder of the programs, built for these numbers of joints."""
+def programs(commit: str, joints: list[int]) -> Path:
+    """The folder of the programs, built for these numbers of joints and those that it was built for before."""
     tree = CACHE / commit[:16]
     if not (tree / "CMakeLists.txt").is_file():
         check_out(commit, tree)
     build = tree / "build" / "release"
     started = time.monotonic()
     print(f"  building {commit[:12]} ", end="", file=sys.stderr, flush=True)
-    step(commit, "cmake", "--preset", "release", "-S", str(tree), "-B", str(build), f"-DREED_PYTHON={sys.executable}", f"-DREED_JOINTS={joints}",
+    step(commit, "cmake", "--preset", "release", "-S", str(tree), "-B", str(build), f"-DREED_PYTHON={sys.executable}", f"-DREED_JOINTS={with_those_before(build, joints)}",
          "-DREED_BUILD_TESTS=OFF", *launcher())
     step(commit, "ninja", "-C", str(build), *TARGETS)
     print(f"{time.monotonic() - started:6.1f} s", file=sys.stderr, flush=True)
     tree.touch()
     forget_oldest()
     return build / "bin"
+
+
+def with_those_before(build: Path, joints: list[int]) -> str:
+    cache = build / "CMakeCache.txt"
+    before = re.search(r"^REED_JOINTS:\w+=(.*)$", cache.read_text(errors="replace"), re.M) if cache.exists() else None
+    return ";".join(map(str, sorted({*joints, *(int(number) for number in (before[1].split(";") if before else []))})))
 
 
 def check_out(commit: str, tree: Path) -> None:
