@@ -3,10 +3,12 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
 
+import distributed
 import pytest
 from engine_items import DRAWS
 
@@ -137,6 +139,16 @@ def test_workers_listen_on_the_loopback_interface_alone_and_only_on_the_processo
     process.communicate(timeout=60)
 
 
+def await_port(port, seconds=120):
+    end = time.monotonic() + seconds
+    while True:
+        try:
+            return socket.create_connection(("127.0.0.1", port)).close()
+        except OSError:
+            assert time.monotonic() < end
+            time.sleep(0.1)
+
+
 ENGINE = """
 import sys
 sys.path[:0] = [{tools!r}, {here!r}]
@@ -151,7 +163,7 @@ def engine(what, tmp_path):
     script = tmp_path / "engine.py"
     script.write_text(ENGINE.format(tools=str(ROOT / "tools"), here=os.path.dirname(__file__)))
     done = subprocess.run([*PYTHON, str(script), what], env={**os.environ, "REED_BUILD_DIR": str(BUILD)}, capture_output=True, text=True,
-                          timeout=120)
+                          timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout.splitlines()
 
@@ -165,13 +177,13 @@ def test_a_run_costs_less_than_ten_milliseconds_of_the_processor_beside_itself(t
 def test_what_a_function_raises_is_raised_and_a_run_that_kills_its_workers_is_named(tmp_path):
     assert engine("raise", tmp_path) == ["UsageError: item 3: no"]
     (line,) = engine("kill", tmp_path)
-    assert line == "RunError: 2: 6 workers died while they ran it"
+    assert line in [f"RunError: {item}, or the run before it: 4 workers died that had it" for item in (2, 3)]
 
 
 def test_a_worker_that_computes_something_else_is_named_and_left_out(tmp_path):
     named, refused = engine("another", tmp_path)
-    assert "is left out, on " in named and "its canary's digest is 0123" in named and ", here " in named
-    assert refused.startswith("UsageError: on ") and "its canary's digest is 0123" in refused
+    assert "is left out, on " in named and "its canary's digest is " in named and named.endswith(", here 0123")
+    assert refused == "UsageError: " + named.partition("left out, ")[2]
 
 
 def test_runs_on_a_scheduler_have_the_same_records_and_the_workers_stay(alone, tmp_path):
@@ -191,6 +203,9 @@ def test_runs_on_a_scheduler_have_the_same_records_and_the_workers_stay(alone, t
             started.append(subprocess.Popen([*dask, "worker", SCHEDULER, "--nthreads", "1", "--no-dashboard", "--local-directory", tmp_path / "w"],
                                             env={**environment, "PYTHONPATH": str(ROOT / "tools"), "REED_BUILD_DIR": str(build)},
                                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        await_port(int(SCHEDULER.rpartition(":")[2]))
+        with distributed.Client(SCHEDULER, timeout=60, set_as_default=False) as client:
+            client.wait_for_workers(2, timeout=120)
         for folder in ("one", "two"):  # the workers stay for the next one
             process = start(tmp_path, "--scheduler", SCHEDULER, "--out", tmp_path / folder)
             out, err = process.communicate(timeout=180)

@@ -27,6 +27,7 @@ ARROWS = {
     "run": {"figures", "law", "record", "robots"},
     "engine": {"record", "run"},
     "campaign": {"engine", "figures", "record", "robots", "run", "show"},
+    "worst": {"campaign", "engine", "run"},
     "paper": {"engine", "figures", "record", "robots", "run", "show"},
     "bode": {"record", "run", "show"},
     "tune": {"campaign", "engine", "record", "robots", "run", "scenarios", "show"},

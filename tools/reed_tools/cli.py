@@ -15,6 +15,7 @@ from reed_tools.text import did_you_mean, one_line
 COMMANDS = {
     "run": ("run.command", "one hardware-in-the-loop run: figures, plots, report"),
     "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
+    "worst": ("worst.command", "the worst case of a campaign: searched for, reduced to what it needs, kept for the tests"),
     "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
     "compare": ("compare.command", "two or more runs, or campaigns, beside each other: differences first"),
     "live": ("live.command", "a page that shows a run as it happens, or a finished one"),

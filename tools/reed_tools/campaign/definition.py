@@ -40,12 +40,15 @@ class Drawn:
         return factor if self.times is None else factor * self.times
 
     def factor(self, seed: int, index: int, entry: int):
-        u = unit_number(f"{seed}/{index}/{self.key}/{entry}")
+        return self.at(unit_number(f"{seed}/{index}/{self.key}/{entry}"))
+
+    def at(self, u: float):
+        """The factor at a share u of the distribution, 0 to 1."""
         if self.distribution == "choice":
-            return self.support[int(u * len(self.support))]
+            return self.support[min(int(u * len(self.support)), len(self.support) - 1)]
         low, high = self.support
         if self.distribution == "integer":
-            return low + int(u * (high - low + 1))
+            return min(low + int(u * (high - low + 1)), high)
         if self.distribution == "log_uniform":
             return math.exp(math.log(low) + u * (math.log(high) - math.log(low)))
         return low + u * (high - low)

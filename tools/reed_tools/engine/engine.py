@@ -14,7 +14,7 @@ import signal
 import threading
 import time
 import uuid
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 
 from reed_tools.engine import place, task, worker
 from reed_tools.errors import ReedError, RunError, UsageError
@@ -22,7 +22,8 @@ from reed_tools.run import hil
 
 POLL_S = 0.2
 LOOK_S = 5.0             # between looks at who has joined and who has left
-WORKERS_PATIENCE_S = 60.0  # without any worker
+WORKERS_PATIENCE_S = 60.0  # without any worker at the start
+LOST_PATIENCE_S = 300.0    # without any that is left, or comes back
 STOP_PATIENCE_S = 2 * hil.STOP_PATIENCE_S
 AHEAD = 2                # runs given to a worker: it never waits for the next one
 
@@ -49,7 +50,9 @@ class Engine:
 
             self.canary = canary
             stack.callback(self.leave)
-            self.client.register_plugin(canary.Canary(self.session, canary.identity()), name=self.session)
+            own = canary.Canary(self.session, canary.identity())
+            with suppress(OSError):  # a worker was lost that ran its canary: the scheduler has the plugin, for it too when it is back
+                self.client.register_plugin(own, name=self.session)
             self.await_workers()
             self.stack = stack.pop_all()
         return self
@@ -64,7 +67,8 @@ class Engine:
         """Runs that are left end; workers of a scheduler stay for others."""
         self.stop_runs()
         if self.scheduler and self.client.status == "running":
-            self.client.unregister_worker_plugin(self.session)
+            with suppress(OSError):  # likewise
+                self.client.unregister_worker_plugin(self.session)
 
     # ---- workers ----
 
@@ -141,10 +145,10 @@ class Engine:
         now = time.monotonic()
         if now - self.looked > LOOK_S and not self.interrupted and self.look():
             return None
-        if self.accepted:
+        if self.accepted or len(self.known) > len(self.refused):  # one of them runs its canary
             return None
-        if lonely_since and now - lonely_since > WORKERS_PATIENCE_S:
-            raise RunError(f"every worker was lost, and none came back within {WORKERS_PATIENCE_S:g} s")
+        if lonely_since and now - lonely_since > LOST_PATIENCE_S:
+            raise RunError(f"every worker was lost, and none came back within {LOST_PATIENCE_S:g} s")
         return lonely_since or now
 
     def result(self, future, item):
@@ -155,7 +159,7 @@ class Engine:
         except ReedError:
             raise
         except KilledWorker:
-            raise RunError(f"{item}: {place.MOST_LOSSES + 1} workers died while they ran it") from None
+            raise RunError(f"{item}, or the run before it: {place.MOST_LOSSES + 1} workers died that had it") from None
         except CancelledError:
             raise RunError(f"the scheduler {self.scheduler or 'of the local workers'} was lost") from None
         except Exception as error:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from reed_tools.errors import UsageError
 
 LOOPBACK = "127.0.0.1"
-MOST_LOSSES = 5  # workers that one run may take with it before it is the run's fault
+MOST_LOSSES = 3  # workers that one run may take with it before it is the run's fault
 CONNECT_S = 10.0
 QUIET = {"distributed": "critical", "distributed.client": "critical", "tornado": "critical", "tornado.application": "critical", "asyncio": "critical"}
 

@@ -1,0 +1,1 @@
+"""The worst case of a campaign, searched for instead of waited for."""
