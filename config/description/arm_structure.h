@@ -3,11 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "reed/config/sizes/sizes.h"
+#include "reed/math/plane.h"
 
 namespace reed {
 
@@ -56,7 +56,7 @@ struct ArmStructure {
   /// Longest distance from base to tool point.
   double reach_m() const {
     double reach = tool_offset_m.norm();
-    for (const DhRow& row : dh) reach += std::hypot(row.a_m, row.d_m);
+    for (const DhRow& row : dh) reach += math::Length(row.a_m, row.d_m);
     return reach;
   }
   int dof() const { return static_cast<int>(dh.size()); }

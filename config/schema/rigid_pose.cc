@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reed/math/turn.h"
+
 namespace reed {
 
-using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -17,7 +18,7 @@ RigidPose PoseOf(const ArmStructure& arm, const std::vector<double>& q_rad) {
   for (std::size_t i = 0; i < arm.dh.size(); ++i) {
     const DhRow& row = arm.dh[i];
     p += R.col(0) * row.a_m;
-    R = R * AngleAxisd(row.alpha_rad, Vector3d::UnitX()) * AngleAxisd(q_rad[i], Vector3d::UnitZ());
+    R = R * math::TurnX(row.alpha_rad) * math::TurnZ(q_rad[i]);
     p += R.col(2) * row.d_m;
     pose.R.push_back(R);
     pose.p.push_back(p);

@@ -9,6 +9,7 @@
 
 #include "reed/config/controller/nominal_arm.h"
 #include "reed/core/model/arm_model.h"
+#include "reed/math/sine.h"
 
 namespace reed::model {
 
@@ -134,8 +135,9 @@ ArmModel<N, P> ArmModelFrom(const NominalArm& arm) {
   out.tool_offset = arm.tool_offset_m;
   for (int i = 0; i < N; ++i) {
     const DhRow& row = arm.dh[static_cast<std::size_t>(i)];
-    out.cos_alpha(i) = std::cos(row.alpha_rad);
-    out.sin_alpha(i) = std::sin(row.alpha_rad);
+    const auto [s, c] = math::SinCos(row.alpha_rad);
+    out.cos_alpha(i) = c;
+    out.sin_alpha(i) = s;
     out.a(i) = row.a_m;
     out.d(i) = row.d_m;
   }

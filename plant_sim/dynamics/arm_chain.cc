@@ -4,11 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reed/math/turn.h"
 #include "reed/plant/dynamics/mass_split.h"
 
 namespace reed::plant {
 
-using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -93,9 +93,7 @@ class Builder {
   void AddJoint(std::size_t i) {
     const DhRow& row = arm_.dh[i];
     Element joint;
-    joint.mount =
-        output_.Inverse() * Placement{AngleAxisd(row.alpha_rad, Vector3d::UnitX()).toRotationMatrix(),
-                                      Vector3d(row.a_m, 0.0, 0.0)};
+    joint.mount = output_.Inverse() * Placement{math::TurnX(row.alpha_rad), Vector3d(row.a_m, 0.0, 0.0)};
     joint.joint = static_cast<int>(i);
     chain_.elements.push_back(joint);
     chain_.drivetrains.push_back(BuildDrivetrain(arm_, config_, i));

@@ -8,10 +8,9 @@
 //   At a change of source the difference of both is added and decays with kForget_s.
 #pragma once
 
-#include <cmath>
-
 #include "reed/core/contact/force_source.h"
 #include "reed/core/contact/force_tare.h"
+#include "reed/math/exponential.h"
 
 namespace reed::strategy {
 
@@ -21,9 +20,9 @@ class NormalForce {
   NormalForce(const Eigen::Vector3d& normal, double contact_N, double T) noexcept
       : normal_(normal),
         contact_N_(contact_N),
-        tare_share_(-std::expm1(-T / kTare_s)),
-        seek_share_(-std::expm1(-T / kSeek_s)),
-        forget_(std::exp(-T / kForget_s)) {}
+        tare_share_(-math::ExpM1(-T / kTare_s)),
+        seek_share_(-math::ExpM1(-T / kSeek_s)),
+        forget_(math::Exp(-T / kForget_s)) {}
 
   /// At rest and free. force: as read.
   void Tare(const Eigen::Vector3d& force, bool fresh) noexcept {

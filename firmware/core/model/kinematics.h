@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "reed/core/model/arm_model.h"
+#include "reed/math/plane.h"
+#include "reed/math/sine.h"
 
 namespace reed::model {
 
@@ -37,7 +38,7 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
   Vector3d acc = Vector3d::Zero(), alpha = Vector3d::Zero();  // at zero joint acceleration
   for (int i = 0; i < N; ++i) {
     // clang-format off
-    const double c = std::cos(q(i)), s = std::sin(q(i));
+    const auto [s, c] = math::SinCos(q(i));
     const Vector3d y_twisted = arm.cos_alpha(i) * y + arm.sin_alpha(i) * z;      // (1) Rx(alpha)
     z = arm.cos_alpha(i) * z - arm.sin_alpha(i) * y;
     const Vector3d r = arm.a(i) * x + arm.d(i) * z;                              // (1) Tx(a), Tz(d): origin i-1 to i
@@ -66,8 +67,8 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
 
 /// (2) alpha, beta, gamma about x, y, z of the base: R = Rz(gamma) Ry(beta) Rx(alpha).
 inline Eigen::Vector3d EulerAngles(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
-          std::atan2(R(1, 0), R(0, 0))};
+  return {math::Atan2(R(2, 1), R(2, 2)), math::Atan2(-R(2, 0), math::Length(R(2, 1), R(2, 2))),
+          math::Atan2(R(1, 0), R(0, 0))};
 }
 
 /// (3) joint angles to x, y, z, alpha, beta, gamma. Rank of the map: at most N, so five joints do not reach
