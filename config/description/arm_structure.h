@@ -4,12 +4,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "reed/config/description/roll_pitch_yaw.h"
 #include "reed/config/sizes/sizes.h"
+#include "reed/math/plane.h"
 
 namespace reed {
 
@@ -102,7 +102,7 @@ struct ArmStructure {
   /// Longest distance from base to tool point.
   double reach_m() const {
     double reach = tool.xyz_m.norm();
-    for (const Joint& joint : joints) reach += std::hypot(joint.xyz_m.norm(), joint.d_m);
+    for (const Joint& joint : joints) reach += math::Length(joint.xyz_m.norm(), joint.d_m);
     return reach;
   }
   int dof() const { return static_cast<int>(joints.size()); }

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reed/math/turn.h"
+
 namespace reed {
 
-using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -17,7 +18,7 @@ RigidPose PoseOf(const ArmStructure& arm, const std::vector<double>& q_rad) {
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {
     const Joint& joint = arm.joints[i];
     p += R * joint.xyz_m;
-    R = R * joint.rotation() * AngleAxisd(q_rad[i], Vector3d::UnitZ());
+    R = R * joint.rotation() * math::TurnZ(q_rad[i]);
     p += R.col(2) * joint.d_m;
     pose.R.push_back(R);
     pose.p.push_back(p);

@@ -9,6 +9,7 @@
 
 #include "reed/config/controller/nominal_arm.h"
 #include "reed/core/model/arm_model.h"
+#include "reed/math/sine.h"
 
 namespace reed::model {
 

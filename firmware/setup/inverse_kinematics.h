@@ -9,13 +9,13 @@
 
 #include "reed/core/model/kinematics.h"
 #include "reed/core/model/positive_solver.h"
+#include "reed/math/turn.h"
 
 namespace reed::reference {
 
 /// Small rotation vector that takes R to R_goal, world axes.
 inline Eigen::Vector3d RotationError(const Eigen::Matrix3d& R_goal, const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R_goal * R.transpose());
-  return turn.angle() * turn.axis();
+  return math::RotationVector(R_goal * R.transpose());
 }
 
 /// Where the arm is at these joint angles: J, tip and hand orientation.

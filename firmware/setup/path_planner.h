@@ -10,6 +10,7 @@
 #include "reed/core/reference/minimum_jerk.h"
 #include "reed/firmware/setup/inverse_kinematics.h"
 #include "reed/firmware/setup/planned_path.h"
+#include "reed/math/sine.h"
 
 namespace reed::reference {
 
@@ -90,7 +91,7 @@ class PathPlanner {
   static double Swing(const ReferenceLeg& leg, double t, bool ends) {
     if (leg.frequency_hz <= 0.0) return 0.0;
     const double half_s = 0.5 / leg.frequency_hz;
-    const double sine = MinimumJerk(t, half_s).s * std::sin(kTwoPi * leg.frequency_hz * t);
+    const double sine = MinimumJerk(t, half_s).s * math::Sin(kTwoPi * leg.frequency_hz * t);
     return ends ? sine * MinimumJerk(leg.duration_s - t, half_s).s : sine;
   }
 

@@ -1,7 +1,8 @@
 #include "reed/plant/drive/torque_excitation.h"
 
-#include <cmath>
 #include <numbers>
+
+#include "reed/math/sine.h"
 
 namespace reed::plant {
 
@@ -17,7 +18,7 @@ TorqueExcitation::TorqueExcitation(const DriveConfig& config)
 
 double TorqueExcitation::At(double time_s) const noexcept {
   double sum = 0.0;
-  for (const Line& line : lines_) sum += std::cos(line.omega_radps * time_s + line.phase_rad);
+  for (const Line& line : lines_) sum += math::Cos(line.omega_radps * time_s + line.phase_rad);
   return amplitude_Nm_ * sum;
 }
 

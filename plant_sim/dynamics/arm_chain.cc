@@ -4,11 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reed/math/turn.h"
 #include "reed/plant/dynamics/mass_split.h"
 
 namespace reed::plant {
 
-using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -70,16 +70,10 @@ Drivetrain BuildDrivetrain(const TrueArm& arm, const PlantModelConfig& config, s
 
 Placement Shift(const Vector3d& p) { return {Matrix3d::Identity(), p}; }
 
-Matrix3d TurnAbout(const Vector3d& axis, double angle_rad) {
-  return AngleAxisd(angle_rad, axis).toRotationMatrix();
-}
-
 /// Turned about its own axes in turn: z, then y, then x. The same frame as about the fixed x, y, z.
 Placement PlacementOf(const FixedFrame& frame) {
   const Vector3d& rpy = frame.rpy_rad;
-  return {TurnAbout(Vector3d::UnitZ(), rpy.z()) * TurnAbout(Vector3d::UnitY(), rpy.y()) *
-              TurnAbout(Vector3d::UnitX(), rpy.x()),
-          frame.xyz_m};
+  return {math::TurnZ(rpy.z()) * math::TurnY(rpy.y()) * math::TurnX(rpy.x()), frame.xyz_m};
 }
 
 /// Base of a member whose x axis points along z (d) or x (a) of the link frame, or against it.
@@ -110,7 +104,7 @@ class Builder {
     const Joint& joint = arm_.joints[i];
     Element turn;
     turn.mount = output_.Inverse() * PlacementOf(joint);
-    turn.mount.R = (turn.mount.R * TurnAbout(Vector3d::UnitZ(), joint.offset_rad)).eval();
+    turn.mount.R = (turn.mount.R * math::TurnZ(joint.offset_rad)).eval();
     turn.joint = static_cast<int>(i);
     chain_.elements.push_back(turn);
     chain_.drivetrains.push_back(BuildDrivetrain(arm_, config_, i));

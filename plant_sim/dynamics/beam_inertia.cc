@@ -1,6 +1,7 @@
 #include "reed/plant/dynamics/beam_inertia.h"
 
 #include "reed/plant/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/small_products.h"
 
 namespace reed::plant {
 
@@ -45,20 +46,20 @@ REED_CLONES void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_do
   const BendingVec a_dot = e_dot.segment<kBending>(kA), b_dot = e_dot.segment<kBending>(kB);
   const double u = e[kU], u_dot = e_dot[kU];
 
-  NNa_ = NN_ * a;
-  NNb_ = NN_ * b;
-  NNa_dot_ = NN_ * a_dot;
-  NNb_dot_ = NN_ * b_dot;
-  Sa_ = S_ * a;
-  Sb_ = S_ * b;
-  lSa_ = lS_ * a;
-  lSb_ = lS_ * b;
+  NNa_ = Times(NN_, a);
+  NNb_ = Times(NN_, b);
+  NNa_dot_ = Times(NN_, a_dot);
+  NNb_dot_ = Times(NN_, b_dot);
+  Sa_ = Times(S_, a);
+  Sb_ = Times(S_, b);
+  lSa_ = Times(lS_, a);
+  lSb_ = Times(lS_, b);
   lNu_ = lN_ + u * UN_;
 
   // h, its rate, and its second derivative without e''.
   h_ = {l_ + U_ * u - 0.5 * a.dot(Sa_) - 0.5 * b.dot(Sb_), N_.dot(a), N_.dot(b)};
   h_dot_ = {U_ * u_dot - Sa_.dot(a_dot) - Sb_.dot(b_dot), N_.dot(a_dot), N_.dot(b_dot)};
-  h_bias_ = {-a_dot.dot(S_ * a_dot) - b_dot.dot(S_ * b_dot), 0.0, 0.0};
+  h_bias_ = {-a_dot.dot(Times(S_, a_dot)) - b_dot.dot(Times(S_, b_dot)), 0.0, 0.0};
 
   // Second moments ∫ρ{x², y², z², xy, xz, yz} and their rates.
   const double xx = ll_ + (2.0 * lU_ + UU_ * u) * u - a.dot(lSa_) - b.dot(lSb_);
@@ -88,29 +89,33 @@ REED_CLONES void BeamInertia::Deform(const ElasticVec& e, const ElasticVec& e_do
 }
 
 REED_CLONES BlockVec BeamInertia::Bias(const Motion& base) const {
-  const Vector3d& w = base.omega;
+  const Vector3d &w = base.omega, &acc = base.bias_linear, &alpha = base.bias_angular;
   const BendingVec a = e_.segment<kBending>(kA), b = e_.segment<kBending>(kB);
-  const double u = e_[kU], u_dot = e_dot_[kU];
+  const BendingVec a_dot = e_dot_.segment<kBending>(kA), b_dot = e_dot_.segment<kBending>(kB);
+  const double u = e_[kU], u_dot = e_dot_[kU], UNa = UN_.dot(a), UNb = UN_.dot(b);
   const double wxx = w.x() * w.x(), wyy = w.y() * w.y(), wzz = w.z() * w.z();
 
-  BlockVec p = M_.middleCols<6>(kLinear) *
-               (Eigen::Matrix<double, 6, 1>() << base.bias_linear, base.bias_angular).finished();
-
-  // Elastic rows: centrifugal -1/2 ω ∂𝕀/∂e ω and Coriolis -2 ω ∂(Ge')/∂e.
-  p.segment<kBending>(kA) += (wyy + wzz) * lSa_ - (wxx + wzz) * NNa_ + w.x() * w.y() * lNu_ +
-                             w.y() * w.z() * NNb_ - 2.0 * (w.x() * NNb_dot_ - w.z() * u_dot * UN_);
-  p.segment<kBending>(kB) += (wyy + wzz) * lSb_ - (wxx + wyy) * NNb_ + w.x() * w.z() * lNu_ +
-                             w.y() * w.z() * NNa_ + 2.0 * (w.x() * NNa_dot_ - w.y() * u_dot * UN_);
-  p[kU] +=
-      -(wyy + wzz) * (lU_ + UU_ * u) + w.x() * w.y() * UN_.dot(a) + w.x() * w.z() * UN_.dot(b) +
-      2.0 * (w.y() * UN_.dot(e_dot_.segment<kBending>(kB)) - w.z() * UN_.dot(e_dot_.segment<kBending>(kA)));
+  // Each row: its mass times the bias acceleration of the base, the columns of ∂h/∂e and G in the mass matrix. Then, of the
+  // elastic rows, centrifugal -1/2 ω ∂𝕀/∂e ω and Coriolis -2 ω ∂(Ge')/∂e.
+  BlockVec p;
+  p.segment<kBending>(kA) = (alpha.z() + w.x() * w.y()) * lNu_ + (w.y() * w.z() - alpha.x()) * NNb_ +
+                            acc.y() * N_ - acc.x() * Sa_ + (wyy + wzz) * lSa_ - (wxx + wzz) * NNa_ -
+                            2.0 * w.x() * NNb_dot_ + 2.0 * w.z() * u_dot * UN_;
+  p.segment<kBending>(kB) = (w.x() * w.z() - alpha.y()) * lNu_ + (w.y() * w.z() + alpha.x()) * NNa_ +
+                            acc.z() * N_ - acc.x() * Sb_ + (wyy + wzz) * lSb_ - (wxx + wyy) * NNb_ +
+                            2.0 * w.x() * NNa_dot_ - 2.0 * w.y() * u_dot * UN_;
+  p[kU] = U_ * acc.x() + (alpha.y() + w.x() * w.z()) * UNb + (w.x() * w.y() - alpha.z()) * UNa -
+          (wyy + wzz) * (lU_ + UU_ * u) + 2.0 * (w.y() * UN_.dot(b_dot) - w.z() * UN_.dot(a_dot));
+  p[kTwist] = 0.5 * polar_ * length_ * alpha.x();
 
   // Base rows.
+  const Vector3d Ge_dot(NNa_.dot(b_dot) - NNb_.dot(a_dot), UNb * u_dot - lNu_.dot(b_dot),
+                        lNu_.dot(a_dot) - UNa * u_dot);
   const double spin = polar_ * length_ * (w.x() + 0.5 * e_dot_[kTwist]);
-  const Eigen::Matrix<double, kElastic, 3> G = M_.block<kElastic, 3>(0, kAngular);
-  const Vector3d Ge_dot = G.topRows<kElastic - 1>().transpose() * e_dot_.head<kElastic - 1>();
-  p.segment<3>(kLinear) += w.cross(w.cross(h_)) + 2.0 * w.cross(h_dot_) + h_bias_;
-  p.segment<3>(kAngular) += w.cross(I_ * w + Ge_dot + Vector3d(spin, 0.0, 0.0)) + I_dot_ * w;
+  p.segment<3>(kLinear) = m_ * acc + alpha.cross(h_) + w.cross(w.cross(h_)) + 2.0 * w.cross(h_dot_) + h_bias_;
+  p.segment<3>(kAngular) = h_.cross(acc) + Times(I_, alpha) +
+                           Vector3d(polar_ * length_ * alpha.x(), 0.0, 0.0) +
+                           w.cross(Times(I_, w) + Ge_dot + Vector3d(spin, 0.0, 0.0)) + Times(I_dot_, w);
   return p;
 }
 

@@ -4,18 +4,14 @@
 #include <cstring>
 
 #include "reed/plant/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/small_products.h"
 
 namespace reed::plant {
 
 namespace {
 
 constexpr int kN = kBlockSize;
-constexpr int kLanes = 4;
 constexpr int kGroups = kN / kLanes;  // of columns
-
-/// Four neighbouring columns; unaligned in memory.
-typedef double Group
-    __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 inline const Group& At(const double* row, int group) { return reinterpret_cast<const Group*>(row)[group]; }
 inline Group& At(double* row, int group) { return reinterpret_cast<Group*>(row)[group]; }
@@ -68,11 +64,19 @@ REED_CLONES void EliminateLeading(double* __restrict M, double* __restrict p, do
 
 REED_CLONES void BackSubstitute(const double* __restrict M, const double* __restrict p,
                                 const double* __restrict inverse, double* __restrict k) {
-  for (int r = 0; r < kPivots; ++r) k[r] = 0.0;  // so that whole groups can be summed
+  static_assert(kPivots + 2 == kN - kLanes);
+  double rest[kPivots];  // of row r, without what is still to come of k[0 ... r]
+  for (int r = 0; r < kPivots; ++r) {
+    const double* const row = Row(M, r);
+    const Group last = At(row, kGroups - 1) * At(k, kGroups - 1);
+    rest[r] = (p[r] + (row[kPivots] * k[kPivots] + row[kPivots + 1] * k[kPivots + 1])) +
+              ((last[0] + last[1]) + (last[2] + last[3]));
+  }
+#pragma GCC unroll 10
   for (int r = kPivots - 1; r >= 0; --r) {
-    Group sum = At(Row(M, r), kGroups - 1) * At(k, kGroups - 1);
-    for (int g = r / kLanes; g < kGroups - 1; ++g) sum += At(Row(M, r), g) * At(k, g);
-    k[r] = -(p[r] + ((sum[0] + sum[1]) + (sum[2] + sum[3]))) * inverse[r];
+    k[r] = -rest[r] * inverse[r];
+#pragma GCC unroll 10
+    for (int above = 0; above < r; ++above) rest[above] += Row(M, above)[r] * k[r];
   }
 }
 

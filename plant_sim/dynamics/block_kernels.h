@@ -1,6 +1,5 @@
 // The two dense loops in which the plant spends its time, on plain arrays of one fixed size so that they
-// vectorise. Where the compiler can choose the processor at start, there is a copy for AVX2 with fused
-// multiply-add. RT: safe.
+// vectorise. Where the compiler can choose the processor at start, there is a copy for AVX2. RT: safe.
 #pragma once
 
 namespace reed::plant {

@@ -2,9 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include "reed/math/turn.h"
+
 namespace reed::plant {
 
-using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -25,7 +26,7 @@ const std::vector<Vector3d>& CentreLine::At(const VectorXd& x) {
   for (const Element& element : chain_.elements) {
     const Placement base = carrier * element.mount;
     if (element.joint >= 0) {
-      carrier = {base.R * AngleAxisd(x[n + element.joint], Vector3d::UnitZ()).toRotationMatrix(), base.p};
+      carrier = {base.R * math::TurnZ(x[n + element.joint]), base.p};
       points_[k++] = carrier.p;
       continue;
     }

@@ -1,8 +1,9 @@
 #include "reed/plant/dynamics/disturbance.h"
 
-#include <cmath>
 #include <numbers>
 #include <random>
+
+#include "reed/math/sine.h"
 
 namespace reed::plant {
 
@@ -23,8 +24,8 @@ Disturbance::Disturbance(const DisturbanceConfig& config, std::int64_t seed) : c
 Eigen::Vector3d Disturbance::Force(double t_s, double schedule_s) const {
   Eigen::Vector3d force = config_.bias_N;
   for (const Sinusoid& s : sinusoids_) {
-    const Eigen::Vector3d wave = (s.angular_frequency * t_s + s.phase.array()).sin();
-    force += config_.amplitude_N.cwiseProduct(wave);
+    for (int axis = 0; axis < 3; ++axis)
+      force[axis] += config_.amplitude_N[axis] * math::Sin(s.angular_frequency * t_s + s.phase[axis]);
   }
   if (config_.step_s >= 0.0 && schedule_s >= config_.step_s) force += config_.step_N;
   return force;

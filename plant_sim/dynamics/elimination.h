@@ -1,6 +1,8 @@
 // One element's share of the sweep: the quadratic form in [e | base rate] and the elimination of e. RT: safe.
 #pragma once
 
+#include <algorithm>
+
 #include "reed/plant/dynamics/beam_elasticity.h"
 #include "reed/plant/dynamics/beam_inertia.h"
 
@@ -11,7 +13,7 @@ namespace reed::plant {
 class ElementBlock {
  public:
   void Set(const BlockMat& M, const BlockVec& p) {
-    M_ = M;
+    std::copy_n(M.data(), M.size(), M_.data());  // at once: Eigen would go number by number
     p_ = p;
   }
 
@@ -29,9 +31,9 @@ class ElementBlock {
   BlockVec BackSubstitute(const Rate& base) const;
 
  private:
-  BlockMat M_;
-  BlockVec p_;
-  ElasticVec pivot_inverse_;
+  BlockMat M_ = BlockMat::Zero();
+  BlockVec p_ = BlockVec::Zero();
+  ElasticVec pivot_inverse_ = ElasticVec::Zero();
 };
 
 }  // namespace reed::plant

@@ -1,6 +1,6 @@
 #include "reed/plant/dynamics/equations_of_motion.h"
 
-#include <cmath>
+#include "reed/math/sine.h"
 
 namespace reed::plant {
 
@@ -11,13 +11,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kImmovable = 1e300;  // kg·m²
-
-Matrix3d TurnZ(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  Matrix3d R;
-  R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-  return R;
-}
 
 }  // namespace
 
@@ -72,7 +65,12 @@ void EquationsOfMotion::SetState(const VectorXd& x, const VectorXd& x_dot) {
 
 void EquationsOfMotion::MoveJoint(const Element& element, const Motion& carrier, Node& node) {
   const double speed = x_dot_[n_ + element.joint];
-  node.pose = {element.mount.R * TurnZ(x_[n_ + element.joint]), element.mount.p};
+  const Matrix3d& mount = element.mount.R;
+  const auto [s, c] = math::SinCos(x_[n_ + element.joint]);
+  node.pose.R.col(0) = c * mount.col(0) + s * mount.col(1);
+  node.pose.R.col(1) = c * mount.col(1) - s * mount.col(0);
+  node.pose.R.col(2) = mount.col(2);
+  node.pose.p = element.mount.p;
   node.motion = Carried(carrier, node.pose);
   node.motion.bias_angular += node.motion.omega.cross(Vector3d(0.0, 0.0, speed));
   node.motion.omega.z() += speed;
@@ -98,7 +96,8 @@ void EquationsOfMotion::EliminateMotor(int joint, const Load& load, const Implic
   const int m = joint, j = n_ + joint;
   const double angle = x_[m], speed = x_dot_[m];
   const double xi = angle - x_[j], xi_dot = speed - x_dot_[j];
-  const double k = drive.spring.TangentStiffness(xi), d = drive.spring.d, f = drive.friction.Chord(speed);
+  const double k = drive.spring.TangentStiffness(xi), d = drive.spring.d;
+  const auto [friction_torque, f] = drive.friction.At(speed);
   const double tau_s = drive.spring.Torque(xi, xi_dot);
   const double implicit_s = d * (implicit.y_d[m] - implicit.y_d[j]) - k * (implicit.y_k[m] - implicit.y_k[j]);
 
@@ -110,8 +109,7 @@ void EquationsOfMotion::EliminateMotor(int joint, const Load& load, const Implic
     inertia = work.coupling;
     return;
   }
-  work.motor_rest =
-      load.motor_torque[m] - drive.friction.Torque(speed) - tau_s + f * implicit.y_d[m] + implicit_s;
+  work.motor_rest = load.motor_torque[m] - friction_torque - tau_s + f * implicit.y_d[m] + implicit_s;
   work.motor_pivot = drive.rotor_inertia + implicit.c_d * f + work.coupling;
   if (load.brakes != nullptr) {
     const Brake& brake = (*load.brakes)[static_cast<std::size_t>(joint)];

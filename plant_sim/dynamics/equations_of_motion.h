@@ -88,7 +88,7 @@ class EquationsOfMotion {
     BeamInertia inertia;
     Section tip, body_section;
     Motion base;
-    ElasticVec e, e_dot;
+    ElasticVec e = ElasticVec::Zero(), e_dot = ElasticVec::Zero();
     ElementBlock block;
   };
 

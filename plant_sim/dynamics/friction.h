@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "reed/math/exponential.h"
+
 namespace reed::plant {
 
 struct JointFriction {
@@ -14,13 +16,15 @@ struct JointFriction {
   double viscous = 0.0;  // N·m·s/rad
   double coulomb = 0.0;  // N·m
 
-  double Torque(double speed) const { return viscous * speed + coulomb * std::tanh(speed / kBreakawaySpeed); }
-
-  /// F/θ', the slope of the chord. The integrator uses it instead of the tangent: it never underestimates how
+  /// Torque F, and F/θ', the slope of the chord. The integrator uses it instead of the tangent: it never underestimates how
   /// fast friction stops a motor, so a motor that runs out of speed within a step does not overshoot.
-  double Chord(double speed) const {
-    const double s = std::abs(speed) / kBreakawaySpeed;
-    return viscous + coulomb / kBreakawaySpeed * (s < 1e-4 ? 1.0 : std::tanh(s) / s);
+  struct Value {
+    double torque, chord;
+  };
+  Value At(double speed) const {
+    const double s = speed / kBreakawaySpeed, share = math::Tanh(s);
+    return {viscous * speed + coulomb * share,
+            viscous + coulomb / kBreakawaySpeed * (std::abs(s) < 1e-4 ? 1.0 : share / s)};
   }
 };
 

@@ -1,5 +1,5 @@
-// REED_CLONES before a function: a second copy of it for processors with AVX2 and fused multiply-add, chosen
-// by the loader. Not for inline functions and templates.
+// REED_CLONES before a function: a second copy of it for processors with AVX2, chosen by the loader. Both give the same bits: no
+// multiply-add is fused (cmake/ReedSameBits.cmake). Not for inline functions and templates.
 #pragma once
 
 // "arch=haswell" would need that very processor and leave its successors with the plain copy.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reed/plant/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/small_products.h"
 
 namespace reed::plant {
 
@@ -41,7 +42,7 @@ RigidBody InParent(const Placement& placement, const RigidBody& body) {
 }
 
 REED_CLONES Inertia6 Turned(const Matrix3d& R, const Inertia6& child) {
-  return {R * child.A * R.transpose(), R * child.B * R.transpose(), R * child.D * R.transpose()};
+  return {Turned(R, child.A), Turned(R, child.B), Turned(R, child.D)};
 }
 
 REED_CLONES Inertia6 Shifted(const Vector3d& p, const Inertia6& child) {

@@ -1,6 +1,7 @@
 #include "reed/plant/dynamics/section.h"
 
 #include "reed/plant/dynamics/processor_clones.h"
+#include "reed/plant/dynamics/small_products.h"
 
 namespace reed::plant {
 
@@ -23,11 +24,11 @@ Section::Section(double l, double length) : l_(l), share_(l / length) {
 REED_CLONES void Section::Deform(const ElasticVec& e, const ElasticVec& e_dot) {
   const BendingVec a = e.segment<kBending>(kA), b = e.segment<kBending>(kB);
   const BendingVec a_dot = e_dot.segment<kBending>(kA), b_dot = e_dot.segment<kBending>(kB);
-  const BendingVec Sa = S_ * a, Sb = S_ * b;
+  const BendingVec Sa = Times(S_, a), Sb = Times(S_, b);
 
   pose_.p = {l_ + share_ * e[kU] - 0.5 * a.dot(Sa) - 0.5 * b.dot(Sb), N_.dot(a), N_.dot(b)};
   velocity_ = {share_ * e_dot[kU] - Sa.dot(a_dot) - Sb.dot(b_dot), N_.dot(a_dot), N_.dot(b_dot)};
-  bias_linear_ = {-a_dot.dot(S_ * a_dot) - b_dot.dot(S_ * b_dot), 0.0, 0.0};
+  bias_linear_ = {-a_dot.dot(Times(S_, a_dot)) - b_dot.dot(Times(S_, b_dot)), 0.0, 0.0};
 
   // Cayley(c) = 1 + g ([c]x + 1/2 [c]x²), angular velocity g (c' + 1/2 c x c'), g = 1/(1 + c²/4).
   const double c2 = -slope_.dot(b), c3 = slope_.dot(a);

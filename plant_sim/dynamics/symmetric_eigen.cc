@@ -13,6 +13,8 @@ Eigen::VectorXd SymmetricEigenvalues(const MatrixXd& A) {
 
 EigenPairs GeneralizedEigen(const MatrixXd& A, const MatrixXd& B, Wanted wanted) {
   const bool pairs = wanted == Wanted::kPairs;
+  // Else the machine's own caches decide the order of sums in products of large matrices.
+  Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(
       A, B, (pairs ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly) | Eigen::Ax_lBx);
   return {solver.eigenvalues(), pairs ? solver.eigenvectors() : MatrixXd()};

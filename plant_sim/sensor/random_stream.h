@@ -7,6 +7,9 @@
 #include <numbers>
 #include <random>
 
+#include "reed/math/exponential.h"
+#include "reed/math/sine.h"
+
 namespace reed::plant {
 
 class RandomStream {
@@ -23,11 +26,11 @@ class RandomStream {
       has_spare_ = false;
       return spare_;
     }
-    const double radius = std::sqrt(-2.0 * std::log(Uniform()));
-    const double angle = 2.0 * std::numbers::pi * Uniform();
-    spare_ = radius * std::sin(angle);
+    const double radius = std::sqrt(-2.0 * math::Log(Uniform()));
+    const auto [sine, cosine] = math::SinCos(2.0 * std::numbers::pi * Uniform());
+    spare_ = radius * sine;
     has_spare_ = true;
-    return radius * std::cos(angle);
+    return radius * cosine;
   }
 
  private:

@@ -1,8 +1,9 @@
 // Speed from successive encoder readings: difference quotient, then a first-order low pass. RT: safe.
 #pragma once
 
-#include <cmath>
 #include <numbers>
+
+#include "reed/math/exponential.h"
 
 namespace reed::plant {
 
@@ -22,7 +23,7 @@ class VelocityFilter {
   void Update(double angle_rad, double dt_s) noexcept {
     if (dt_s <= 0.0) return;
     const double mean_radps = (angle_rad - angle_rad_) / dt_s;
-    speed_radps_ += -std::expm1(-cutoff_radps_ * dt_s) * (mean_radps - speed_radps_);
+    speed_radps_ += -math::ExpM1(-cutoff_radps_ * dt_s) * (mean_radps - speed_radps_);
     angle_rad_ = angle_rad;
   }
 

@@ -9,7 +9,7 @@ from reed_tools.paths import BUILD, ROOT
 
 DOCUMENT = (ROOT / "docs" / "architecture.md").read_text()
 ARROW_BLOCK = re.search(r"## The arrows\n.*?```\n(.*?)```", DOCUMENT, re.S).group(1)
-SOURCES = [ROOT / name for name in ("rt", "bus", "config", "lcmtypes", "telemetry", "firmware", "plant_sim", "embedded", "bench", "tools")]
+SOURCES = [ROOT / name for name in ("math", "rt", "bus", "config", "lcmtypes", "telemetry", "firmware", "plant_sim", "embedded", "bench", "tools")]
 OUTSIDE = {"Eigen", "Threads", "LCM", "toml++", "nlohmann-json", "CLI11", "dl"}
 GENERATED = {"reed/bus/generated": "reed_layout"}
 

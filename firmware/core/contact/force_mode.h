@@ -4,13 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "reed/core/contact/force_loop.h"
 #include "reed/core/contact/normal_anchor.h"
 #include "reed/core/contact/stretch_guard.h"
 #include "reed/core/contact/wall_stiffness.h"
 #include "reed/core/reference/force_profile.h"
+#include "reed/math/exponential.h"
 
 namespace reed::strategy {
 
@@ -108,7 +108,7 @@ class ForceMode {
     demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
     demand.z = state_.z;
     // Exact step of ż = a (u − z): stable for any a T.
-    state_.z = allowed + (state_.z - allowed) * std::exp(-config_.gains.a * T_);
+    state_.z = allowed + (state_.z - allowed) * math::Exp(-config_.gains.a * T_);
     return demand;
   }
 
@@ -133,7 +133,7 @@ class ForceMode {
   /// Normal speed at f_d = 0: yields to a force above half of the contact threshold. Less may be the sensor's error:
   /// there the tip holds its position, because following an error would drift without end.
   double Yield(double f, double bandwidth_scale, double x) noexcept {
-    state_.e_f_integral *= std::exp(-T_ / kForget_s);
+    state_.e_f_integral *= math::Exp(-T_ / kForget_s);
     const double half = 0.5 * config_.threshold_N;
     const double felt = f - std::clamp(f, -half, half);
     const double z_d = control::NormalSpeed(Gains(bandwidth_scale), -felt, state_.e_f_integral);

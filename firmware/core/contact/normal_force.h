@@ -11,10 +11,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "reed/core/contact/force_source.h"
 #include "reed/core/contact/force_tare.h"
+#include "reed/math/exponential.h"
 
 namespace reed::strategy {
 
@@ -25,10 +25,10 @@ class NormalForce {
       : normal_(normal),
         contact_N_(contact_N),
         T_(T),
-        tare_share_(-std::expm1(-T / kTare_s)),
-        seek_share_(-std::expm1(-T / kSeek_s)),
-        approach_share_(-std::expm1(-T / kApproach_s)),
-        forget_(std::exp(-T / kForget_s)) {}
+        tare_share_(-math::ExpM1(-T / kTare_s)),
+        seek_share_(-math::ExpM1(-T / kSeek_s)),
+        approach_share_(-math::ExpM1(-T / kApproach_s)),
+        forget_(math::Exp(-T / kForget_s)) {}
 
   /// At rest and free. force: as read.
   void Tare(const Eigen::Vector3d& force, bool fresh) noexcept {

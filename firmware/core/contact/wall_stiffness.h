@@ -14,13 +14,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reed/math/exponential.h"
+
 namespace reed::strategy {
 
 class WallStiffness {
  public:
   /// start: k̂_e until there is evidence, N/m. T in s.
   WallStiffness(double start, double T) noexcept
-      : start_(start), washout_(-std::expm1(-T / kWashout_s)), memory_(std::exp(-T / kMemory_s)) {
+      : start_(start), washout_(-math::ExpM1(-T / kWashout_s)), memory_(math::Exp(-T / kMemory_s)) {
     Reset();
   }
 

@@ -7,7 +7,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
+
+#include "reed/math/exponential.h"
 
 namespace reed::strategy {
 
@@ -22,7 +23,7 @@ class CollisionDetector {
   using Vec = Eigen::Matrix<double, N, 1>;
 
   CollisionDetector(const Vec& threshold, double T) noexcept
-      : threshold_(threshold), share_(-std::expm1(-T / kSlow_s)) {}
+      : threshold_(threshold), share_(-math::ExpM1(-T / kSlow_s)) {}
 
   void Reset(const Vec& r) noexcept {
     slow_ = r;

@@ -1,13 +1,13 @@
 // The disturbance that the momentum observer (47) sees, with the nominal model it compares against. RT: safe.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
 #include "reed/core/estimate/observer.h"
 #include "reed/core/law/friction.h"
 #include "reed/core/measurement.h"
 #include "reed/core/model/dynamics.h"
+#include "reed/math/exponential.h"
 
 namespace reed::strategy {
 
@@ -21,7 +21,7 @@ class DisturbanceEstimate {
         observer_(K_o, T),
         nominal_(model::BodiesFor<N, P>(arm, p_0)),
         viscous_(model::ViscousFriction<N, P>(arm, p_0)),
-        rate_share_(-std::expm1(-2.0 * std::numbers::pi * filter_hz * T)) {}
+        rate_share_(-math::ExpM1(-2.0 * std::numbers::pi * filter_hz * T)) {}
 
   /// The arm is at rest and free: r = 0. kin: at the measured state.
   void Reset(const model::Kinematics<N>& kin, const model::Vec<N>& theta_dot) noexcept {

@@ -8,9 +8,8 @@
 // The paper's conclusion proposes an observer. (47) is Reed's.  RT: safe.
 #pragma once
 
-#include <cmath>
-
 #include "reed/core/law/surface.h"
+#include "reed/math/exponential.h"
 
 namespace reed::control {
 
@@ -19,7 +18,7 @@ class MomentumObserver {
  public:
   /// K_o in 1/s, period in s.
   MomentumObserver(double K_o, double period) noexcept
-      : period_(period), gain_((1.0 - std::exp(-K_o * period)) / period) {}
+      : period_(period), gain_((1.0 - math::Exp(-K_o * period)) / period) {}
 
   /// Starts from the state as it is: r = 0.
   void Reset(const Vec<N>& momentum) noexcept {

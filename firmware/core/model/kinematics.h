@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "reed/core/model/arm_model.h"
+#include "reed/math/plane.h"
+#include "reed/math/sine.h"
 
 namespace reed::model {
 
@@ -37,7 +38,7 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
   Vector3d acc = Vector3d::Zero(), alpha = Vector3d::Zero();  // at zero joint acceleration
   for (int i = 0; i < N; ++i) {
     // clang-format off
-    const double c = std::cos(q(i)), s = std::sin(q(i));
+    const auto [s, c] = math::SinCos(q(i));
     const Eigen::Matrix3d& A = arm.mount_R[i];
     const Vector3d& m = arm.mount_p[i];
     const Vector3d mount = m.x() * x + m.y() * y + m.z() * z;                    // (1) origin of link i-1 to the joint
@@ -70,8 +71,8 @@ void ForwardKinematics(const ArmModel<N, P>& arm, const Vec<N>& q, const Vec<N>&
 
 /// (2) alpha, beta, gamma about x, y, z of the world: R = Rz(gamma) Ry(beta) Rx(alpha).
 inline Eigen::Vector3d EulerAngles(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
-          std::atan2(R(1, 0), R(0, 0))};
+  return {math::Atan2(R(2, 1), R(2, 2)), math::Atan2(-R(2, 0), math::Length(R(2, 1), R(2, 2))),
+          math::Atan2(R(1, 0), R(0, 0))};
 }
 
 /// Columns: axes of the tool's frame.
