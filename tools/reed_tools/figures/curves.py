@@ -15,37 +15,45 @@ MOST_ROWS = 6000
 NEAR_LIMIT = 0.5  # share of a torque limit from which on its line is drawn: one far away would flatten the curves
 
 
+ON_PURPOSE = "While the arm presses, the force loop moves it off the plan along the force direction D on purpose: no failure."
+CHECKED = "The checks apply to these curves."
+YIELDS = "Along the wall's normal the arm yields until the force is right."
+NEED_NOT = "They need not converge to the truth."
+BALANCE = "The equations contain no Coulomb friction and no bending: V converges to where they balance."
+
+
 @dataclass
 class Panel:
-    still: str   # name of the still picture that shows the same
     title: str
     unit: str
     curves: dict[str, np.ndarray]           # by name, one value per row of Signals
     limits: tuple[tuple[float, int], ...] = ()  # dashed: value, number of the curve that it limits
+    note: str = ""
 
 
 def panels(signals: Signals, recording: Recording, effective: dict) -> list[Panel]:
     """In reading order; angles in mrad and lengths in mm, as in the tables."""
     joints = [f"joint {j + 1}" for j in range(signals.dof)]
-    found = [Panel("joint_error", "Joint error: planned reference − motor angle", "mrad", by(joints, 1e3 * signals.joint_error))]
+    found = [Panel("Joint error: planned reference − motor angle", "mrad", by(joints, 1e3 * signals.joint_error), note=ON_PURPOSE if signals.has_wall else "")]
     if signals.has_wall:
-        found.append(Panel("joint_error", "Joint error without the part along D", "mrad", by(joints, 1e3 * signals.tangential_joint)))
+        found.append(Panel("Joint error without the part along D", "mrad", by(joints, 1e3 * signals.tangential_joint), note=CHECKED))
         force = {"desired": signals.force_desired, "measured": signals.force_measured, "true": signals.force_true}
-        found.append(Panel("force", "Normal force of the wall on the robot", "N", force))
-    found.append(Panel("tip_error", "Tip error: true bent tip − planned tip, base axes", "mm", by("xyz", 1e3 * signals.tip_error)))
-    found.append(Panel("torque", "Torque as commanded", "N·m", by(joints, signals.torque), torque_limits(signals, effective["arm"]["torque_limit"])))
+        found.append(Panel("Normal force of the wall on the robot", "N", force))
+        found.append(Panel("Force error", "N", {"desired − true": signals.force_desired - signals.force_true}))
+    found.append(Panel("Tip error: true bent tip − planned tip", "mm", by("xyz", 1e3 * signals.tip_error), note=YIELDS if signals.has_wall else ""))
+    found.append(Panel("Torque as commanded", "N·m", by(joints, signals.torque), torque_limits(signals, effective["arm"]["torque_limit"])))
     names, arm = effective["arm"]["param_names"], effective["arm"]
     if signals.p_hat.shape[1] == len(names):
         for unit in dict.fromkeys(unit_of(arm, name) for name in names):
             numbers = [k for k, name in enumerate(names) if unit_of(arm, name) == unit]
             truth = tuple((arm["p_true"][k], place) for place, k in enumerate(numbers))
-            found.append(Panel("parameters", "Estimated parameters; dashed: the truth", unit, by([names[k] for k in numbers], signals.p_hat[:, numbers]), truth))
+            found.append(Panel("Estimated parameters; dashed: the truth", unit, by([names[k] for k in numbers], signals.p_hat[:, numbers]), truth, NEED_NOT))
     if (book := lyapunov.of_run(signals, effective)) is not None and len(book.t) == len(signals.t):
-        found.append(Panel("lyapunov", "Stability: V and its parts", "J", {"V": book.V, **book.parts}))
+        found.append(Panel("Stability: V and its parts", "J", {"V": book.V, **book.parts}, note=BALANCE))
     if recording.has("REED_TIMING"):
         table = recording.tables["REED_TIMING"]
         rows = rows_at(table, signals.cycle)
-        found.append(Panel("timing", "Time per cycle", "µs", {name: table[f"{name}_ns"][rows] / 1e3 for name in ("cycle", "rx", "compute", "tx")}))
+        found.append(Panel("Time per cycle", "µs", {name: table[f"{name}_ns"][rows] / 1e3 for name in ("cycle", "rx", "compute", "tx")}))
     return found
 
 
@@ -65,6 +73,6 @@ def data(signals: Signals | None, recording: Recording, effective: dict, reason:
     every = 1 + len(signals.t) // MOST_ROWS
     return {"t": floats(signals.t[::every]), "every": every, "colours": list(colours),
             "marks": [[round(t, 6), text, colour if colour.startswith("#") else "#595959"] for t, text, colour in marks.times(signals, reason)],
-            "panels": [{"still": panel.still, "title": panel.title, "unit": panel.unit, "names": list(panel.curves), "limits": panel.limits,
+            "panels": [{"title": panel.title, "note": panel.note, "unit": panel.unit, "names": list(panel.curves), "limits": panel.limits,
                         "values": floats(np.stack([curve[::every] for curve in panel.curves.values()]))}
                        for panel in panels(signals, recording, effective)]}

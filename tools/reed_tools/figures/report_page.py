@@ -96,19 +96,15 @@ def sections(summary: dict, folder: Path, effective: dict, effective_text: str, 
     raw = [name for name in RAW if (folder / name).is_file()]
     return [("The arm", (interactive.ARM if lively.get("arm") else "") + unless(lively.get("arm"), still.pop("arm", "<p>Its shape was not recorded.</p>"))),
             ("Checks", checks(summary)), ("Error by second", windows(summary)), ("What happened", happened(summary)),
-            ("Curves", curves(lively.get("curves"), captions) + unless(lively.get("curves"), "\n".join(still.values()))),
+            ("Curves", curves(lively.get("curves")) + unless(lively.get("curves"), "\n".join(still.values()))),
             ("Parameters", parameters(summary, effective["arm"])), ("Recorded scalars", scalars(summary)), ("Loop, bus and clock", loop + timing(summary)),
             ("The same run again", again(summary["command"], raw, summary["versions"], summary["machine"])),
             ("Effective configuration", f"<p>SHA-256 {summary['config_sha256']}</p><pre class=long>{html.escape(effective_text)}</pre>")]
 
 
-def curves(drawn: dict | None, captions: dict[str, str]) -> str:
-    """Each diagram with the caption of its still picture, once."""
+def curves(drawn: dict | None) -> str:
     if not drawn:
         return ""
-    unsaid = dict(captions)
-    for panel in drawn["panels"]:
-        panel["note"] = unsaid.pop(panel["still"], "")
     thinned = f" Every {drawn['every']}th cycle is drawn; telemetry.lcmlog has all." if drawn["every"] > 1 else ""
     return (f'<p class="hint">Drag in a diagram to zoom all of them, double-click to see the whole run, click to show the arm at that time. The '
             f"values under the cursor are in the legends; a click there hides a curve.{thinned} In print these are still pictures.</p>{interactive.CURVES}")
