@@ -52,7 +52,7 @@ TEST(InverseKinematics, AStretchedArmIsBentToReachAPointNearerToItsBase) {
   const model::Kinematics<2> start = bench.At(model::Vec<2>::Zero());
   for (const double nearer : {1e-9, 1e-6, 0.001, 0.1}) {
     const Eigen::Vector3d goal = start.tip - nearer * start.tip.normalized();
-    const auto q = SolveInverseKinematics<2>(bench.pose_of(), goal, start.R_tip(), model::Vec<2>::Zero());
+    const auto q = SolveInverseKinematics<2>(bench.pose_of(), goal, start.R_last(), model::Vec<2>::Zero());
     EXPECT_LT((bench.At(q).tip - goal).norm(), 1e-9) << nearer;
   }
 }
