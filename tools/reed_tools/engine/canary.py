@@ -61,7 +61,13 @@ class Canary(WorkerPlugin):
     def __init__(self, session: str, own: Identity):
         self.session, self.own = session, own
 
-    async def setup(self, worker) -> None:
+    def setup(self, worker) -> None:
+        """Not before the worker has started: one that is lost in its start is not replaced."""
+        self.proof = asyncio.ensure_future(self.prove(worker))
+
+    async def prove(self, worker) -> None:
+        while worker.status != Status.running:
+            await asyncio.sleep(0.05)
         try:
             why = (await asyncio.to_thread(identity)).difference(self.own)
         except Exception as error:  # whatever it is, this worker cannot run a draw
