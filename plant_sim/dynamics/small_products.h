@@ -8,22 +8,29 @@ namespace reed::plant {
 
 inline constexpr int kLanes = 4;
 
-/// Four neighbouring numbers; unaligned in memory.
-typedef double Group
-    __attribute__((vector_size(kLanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+/// Four neighbouring numbers.
+typedef double Group __attribute__((vector_size(kLanes * sizeof(double))));
 
-[[gnu::always_inline]] inline const Group& GroupAt(const double* first) {
-  return *reinterpret_cast<const Group*>(first);
+/// The same in memory, where they are aligned as numbers are. A member, because Clang takes a reference to a Group for one to an
+/// aligned Group, whatever its type says.
+struct [[gnu::packed, gnu::may_alias]] GroupInMemory {
+  Group v;
+};
+
+[[gnu::always_inline]] inline const GroupInMemory& GroupAt(const double* first) {
+  return *reinterpret_cast<const GroupInMemory*>(first);
 }
-[[gnu::always_inline]] inline Group& GroupAt(double* first) { return *reinterpret_cast<Group*>(first); }
+[[gnu::always_inline]] inline GroupInMemory& GroupAt(double* first) {
+  return *reinterpret_cast<GroupInMemory*>(first);
+}
 
 /// A x.
 [[gnu::always_inline]] inline Eigen::Vector4d Times(const Eigen::Matrix4d& A, const Eigen::Vector4d& x) {
   const double* const a = A.data();
-  Group sum = GroupAt(a) * x[0];
-  for (int c = 1; c < 4; ++c) sum += GroupAt(a + std::ptrdiff_t{4} * c) * x[c];
+  Group sum = GroupAt(a).v * x[0];
+  for (int c = 1; c < 4; ++c) sum += GroupAt(a + std::ptrdiff_t{4} * c).v * x[c];
   Eigen::Vector4d y;
-  GroupAt(y.data()) = sum;
+  GroupAt(y.data()).v = sum;
   return y;
 }
 
@@ -36,7 +43,7 @@ typedef double Group
 /// R A Rᵀ. The fourth lane of a column is the next column's first number: its results are overwritten or left out.
 [[gnu::always_inline]] inline Eigen::Matrix3d Turned(const Eigen::Matrix3d& R, const Eigen::Matrix3d& A) {
   const double* const r = R.data();
-  const Group R_0 = GroupAt(r), R_1 = GroupAt(r + 3), R_2 = {r[6], r[7], r[8], 0.0};
+  const Group R_0 = GroupAt(r).v, R_1 = GroupAt(r + 3).v, R_2 = {r[6], r[7], r[8], 0.0};
   Group RA[3];
   for (int c = 0; c < 3; ++c) RA[c] = (R_0 * A(0, c) + R_1 * A(1, c)) + R_2 * A(2, c);
   Eigen::Matrix3d out;
@@ -44,7 +51,7 @@ typedef double Group
   for (int c = 0; c < 3; ++c) {
     const Group column = (RA[0] * R(c, 0) + RA[1] * R(c, 1)) + RA[2] * R(c, 2);
     if (c < 2) {
-      GroupAt(to + std::ptrdiff_t{3} * c) = column;
+      GroupAt(to + std::ptrdiff_t{3} * c).v = column;
     } else {
       for (int i = 0; i < 3; ++i) to[6 + i] = column[i];
     }

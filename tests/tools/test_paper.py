@@ -104,15 +104,17 @@ def test_the_comparison_shows_a_law_that_loses_losing_and_one_that_wins_winning(
 
 
 class Outside(html.parser.HTMLParser):
-    """Everything a browser would have to fetch."""
+    """Everything a browser would have to fetch, and what it may follow."""
 
     def __init__(self):
         super().__init__()
-        self.found, self.pictures = [], 0
+        self.found, self.links, self.pictures = [], [], 0
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:
-            if name in ("src", "href"):
+            if tag == "a" and name == "href":
+                self.links.append(value)
+            elif name in ("src", "href"):
                 self.pictures += value.startswith("data:image/png;base64,")
                 if not value.startswith("data:"):
                     self.found.append(value)
@@ -123,6 +125,7 @@ def test_the_page_has_a_panel_per_figure_every_law_and_needs_nothing_from_outsid
     outside = Outside()
     outside.feed(text)
     assert outside.found == [] and outside.pictures == 11
+    assert outside.links and all((tmp_path / link).is_file() for link in outside.links if not link.startswith("#"))
     for figure in range(9, 18):
         assert f'id="figure{figure}"' in text
         assert (tmp_path / f"figure{figure}.png").stat().st_size > 5000

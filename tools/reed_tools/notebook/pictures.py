@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 from reed_tools.notebook.recorded import Run
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from reed_tools.show.drawing import plt
 
 PANEL_IN, REST_IN = 1.7, 0.9
 
 
-def plot(runs: Run | list[Run], *names: str, file: str | Path | None = None) -> "Figure":
+def plot(runs: Run | list[Run], *names: str, file: str | Path | None = None) -> "plt.Figure":
     """A panel per name over a common time, the runs on common axes (the first solid); written to `file` where one is given."""
     from reed_tools.show.drawing import COLOURS, STYLE, label_left, legend_right, panels, plt  # matplotlib
 
