@@ -74,7 +74,9 @@ def tidy(everything: bool) -> Stage | None:
         files = changed_last(files)
     if not files:
         return None
-    run = f"printf '%s\\n' {' '.join(files)} | xargs -P {CORES} -n 1 clang-tidy-14 --quiet -p {database}"
+    # It counts what it suppresses in the headers of others; a finding of ours is an error with its own lines.
+    run = (f"printf '%s\\n' {' '.join(files)} | xargs -P {CORES} -n 1 clang-tidy-14 --quiet -p {database} "
+           "2> >(grep -Ev '^[0-9]+ warnings? generated' >&2)")
     return Stage(f"tidy: {len(files)} files", ["bash", "-c", run], TIDY_CLOSING)
 
 
