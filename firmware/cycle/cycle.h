@@ -79,7 +79,7 @@ class Cycle final : public CycleBase {
   std::unique_ptr<bus::ControllerCodec> codec_;
   ArmBus<N> bus_;
   Controller<N, P> controller_;
-  int last_cut_ = -1;  // joint whose command was cut in the last cycle
+  int last_cut_ = -1;                      // joint whose command was cut in the last cycle
   const strategy::ExternalLaw* external_;  // nullptr: a law of the bank
 };
 

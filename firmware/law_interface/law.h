@@ -77,7 +77,7 @@ void reed_law_step(const reed_law_input*, void* state, reed_law_output*); /* rea
 
 /* Optional. */
 uint32_t reed_law_traits(void); /* asked after start; absent: REED_LAW_FORCE_LOOP | REED_LAW_DEFLECTION */
-const char* const* reed_law_value_names(void); /* up to REED_LAW_MAX_VALUES identifiers, then NULL; asked after start */
+const char* const* reed_law_value_names(void); /* at most REED_LAW_MAX_VALUES, then NULL; after start */
 void reed_law_stop(void* state);               /* after the loop */
 
 #ifdef __cplusplus

@@ -5,9 +5,9 @@
 
 extern "C" {
 
-#define REED_EACH(name, value)                                            \
-  void name(const double* x, const double* y, double* out, long count) {  \
-    for (long i = 0; i < count; ++i) out[i] = reed::math::value;          \
+#define REED_EACH(name, value)                                           \
+  void name(const double* x, const double* y, double* out, long count) { \
+    for (long i = 0; i < count; ++i) out[i] = reed::math::value;         \
   }
 
 REED_EACH(Sin, Sin(x[i]))

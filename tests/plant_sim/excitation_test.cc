@@ -1,9 +1,9 @@
-#include "reed/plant/drive/torque_excitation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "reed/plant/drive/torque_excitation.h"
 
 namespace reed::plant {
 namespace {

@@ -35,8 +35,8 @@ struct SerialDeflections {
 };
 
 /// Cantilever of direction t: end deflection under the wrench W at the end and the force Q spread evenly.
-[[gnu::always_inline]] inline Deflection Cantilever(const Member& beam, const Eigen::Vector3d& t, const Wrench& W,
-                             const Eigen::Vector3d& Q) {
+[[gnu::always_inline]] inline Deflection Cantilever(const Member& beam, const Eigen::Vector3d& t,
+                                                    const Wrench& W, const Eigen::Vector3d& Q) {
   const double L = beam.length, L_EI = L / beam.EI;
   const Eigen::Vector3d F_axial = W.F.dot(t) * t, Q_axial = Q.dot(t) * t, n_axial = W.n.dot(t) * t;
   // clang-format off
