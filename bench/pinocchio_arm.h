@@ -18,11 +18,13 @@ inline pinocchio::Model PinocchioModel(const ArmDescription& arm) {
   pinocchio::Model model;
   model.gravity.linear(arm.gravity_mps2);
   pinocchio::JointIndex parent = 0;
+  pinocchio::SE3 before(arm.base.rotation(),
+                        arm.base.xyz_m);  // of the first joint; the others follow each other
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {
     const Eigen::Matrix3d R = arm.joints[i].rotation();
     const Eigen::Vector3d p = arm.joints[i].xyz_m + R.col(2) * arm.joints[i].d_m;
-    const pinocchio::SE3 base(arm.base.rotation(), arm.base.xyz_m);
-    const pinocchio::SE3 mount = (i == 0 ? base : pinocchio::SE3::Identity()) * pinocchio::SE3(R, p);
+    const pinocchio::SE3 mount = before * pinocchio::SE3(R, p);
+    before = pinocchio::SE3::Identity();
     parent = model.addJoint(parent, pinocchio::JointModelRZ(), mount, "j" + std::to_string(i));
     model.appendBodyToJoint(parent, BodyInertia(arm.bodies[i]), pinocchio::SE3::Identity());
   }

@@ -20,11 +20,12 @@ int Run(const Options& options) {
   rt::UseSmallThreadStacks();
   const ControllerConfig scenario = LoadControllerConfig(options.config, options.load);
   const LoopOptions loop = PlanLoop(scenario);
+  const bool tape = !options.control.tape.empty();
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.control.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
   if (options.control.host_pause) RefuseHostPauseOnRealDrives(*transport);
   RefuseSecondController(*transport);
-  return ControlArm(options.control, scenario, TextOf(scenario), loop, *transport);
+  return ControlArm(options.control, scenario, tape ? TextOf(scenario) : std::string(), loop, *transport);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ inline Eigen::Matrix3d TurnX(double angle) noexcept {
   return R;
 }
 
+/// About y.
 inline Eigen::Matrix3d TurnY(double angle) noexcept {
   const auto [s, c] = SinCos(angle);
   Eigen::Matrix3d R;
@@ -24,6 +25,7 @@ inline Eigen::Matrix3d TurnY(double angle) noexcept {
   return R;
 }
 
+/// About z.
 inline Eigen::Matrix3d TurnZ(double angle) noexcept {
   const auto [s, c] = SinCos(angle);
   Eigen::Matrix3d R;

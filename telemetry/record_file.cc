@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 #include "reed/rt/errno_text.h"
 
@@ -17,6 +18,13 @@ constexpr std::size_t kBufferBytes = kFlushRecords * 2048;
 }  // namespace
 
 RecordBuffer MakeRecordBuffer() { return std::make_unique<char[]>(kBufferBytes); }
+
+FileHandle OpenRecordFile(const std::string& what, const std::string& path) {
+  if (path.empty()) return nullptr;
+  FileHandle file(std::fopen(path.c_str(), "we"));
+  if (file == nullptr) throw std::runtime_error(what + " " + path + ": " + rt::ErrnoText());
+  return file;
+}
 
 RecordFile::RecordFile(std::FILE* file, const std::string& path, const RecordBuffer& buffer) : file_(file) {
   if (file_ == nullptr) return;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "reed/telemetry/sink_report.h"
 
@@ -14,6 +15,15 @@ namespace reed::telemetry {
 /// What stdio collects in; to outlive the file.
 using RecordBuffer = std::unique_ptr<char[]>;
 RecordBuffer MakeRecordBuffer();
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
+
+/// Made anew for writing; nullptr for an empty path.
+/// @throws std::runtime_error with one line, `what` and the path in it, if it cannot be made
+FileHandle OpenRecordFile(const std::string& what, const std::string& path);
 
 class RecordFile {
  public:

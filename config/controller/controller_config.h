@@ -36,7 +36,7 @@ struct ReferenceLeg {
 
 struct ReferenceConfig {
   std::vector<double> start_rad;
-  std::vector<double> start_tip_m;  // as written; start_rad are the angles that were found for it
+  std::vector<double> start_tip_m;  // empty once start_rad, the angles for it, were found
   std::vector<ReferenceLeg> legs;
 };
 

@@ -47,10 +47,9 @@ class PlantRules : public RuleContext {
     if (joint != torque || joint != lines)
       Fail("drives.excitation_joint",
            "excitation_joint, excitation_Nm and excitation_hz do nothing without each other");
-    if (c.excitation_joint > static_cast<int>(s_.arm.rotor_inertia_kgm2.size()))
-      Fail("drives.excitation_joint", ToText(c.excitation_joint) + ": the arm has " +
-                                          ToText(static_cast<int>(s_.arm.rotor_inertia_kgm2.size())) +
-                                          " joints");
+    if (c.excitation_joint > s_.arm.dof())
+      Fail("drives.excitation_joint",
+           ToText(c.excitation_joint) + ": the arm has " + ToText(s_.arm.dof()) + " joints");
     for (const double f : c.excitation_hz)
       if (f >= 0.5 * s_.timing.rate_hz)
         Fail("drives.excitation_hz", ToShortText(f) + " Hz is not below half of timing.rate_hz");

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reed/math/turn.h"
 
@@ -94,7 +95,7 @@ std::vector<double> StartAnglesFor(const ArmStructure& arm, const Vector3d& tip,
   if (!q_rad.empty()) return AnglesFor(arm, tip, q_rad, margin_rad);
   // A stretched arm has no direction to bend in, so every guess is bent: the golden ratio spreads the joints.
   constexpr int kGuesses = 64;
-  constexpr double kGolden = 0.6180339887498949, kPi = 3.141592653589793;
+  constexpr double kGolden = 0.6180339887498949, kPi = std::numbers::pi;
   for (int guess = 1; guess <= kGuesses; ++guess) {
     std::vector<double> q;
     for (std::size_t i = 0; i < arm.joints.size(); ++i) {

@@ -116,7 +116,7 @@ void Fields(V& v, ReferenceConfig& c) {
   v.Numbers("start_rad", c.start_rad, {"rad", -6.3, 6.3},
             "motor-side joint angles at the start; needed, or start_tip_m");
   v.Numbers("start_tip_m", c.start_tip_m, {"m", -10, 10},
-            "instead of it: [x, y, z] of the tool point at the start, base frame, of the rigid arm. The "
+            "instead of it: [x, y, z] of the tool point at the start, world frame, of the rigid arm. The "
             "joint angles "
             "are found near start_rad where both are given");
 }

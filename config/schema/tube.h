@@ -1,6 +1,8 @@
 // Section properties of a round tube, so that nobody has to compute them by hand. RT: set-up only.
 #pragma once
 
+#include <numbers>
+
 #include "reed/config/schema/arm_description.h"
 
 namespace reed {
@@ -23,7 +25,7 @@ struct Tube {
 };
 
 constexpr BeamSection SectionOf(const Tube& tube, double length_m) {
-  constexpr double kPi = 3.141592653589793;
+  constexpr double kPi = std::numbers::pi;
   const MaterialConstants& m = kMaterials[static_cast<int>(tube.material)];
   const double D = tube.outer_m, d = D - 2.0 * tube.wall_m;
   const double A = kPi / 4.0 * (D * D - d * d);

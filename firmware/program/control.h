@@ -31,8 +31,8 @@ struct ControlOptions {
 /// The scenario's [timing] as the loop takes it; throws ConfigError when its frames do not fit the wire.
 LoopOptions PlanLoop(const ControllerConfig& scenario);
 
-/// config_text: the scenario as the tape keeps it. Runs the scenario to its end and returns the exit status: 0, 1 when the arm stopped, 3 when the bus is
-/// lost. Throws, before anything moves, what bad input throws.
+/// config_text: the scenario as the tape keeps it; empty without a tape. Runs the scenario to its end and returns the exit
+/// status: 0, 1 when the arm stopped, 3 when the bus is lost. Throws, before anything moves, what bad input throws.
 int ControlArm(const ControlOptions& options, const ControllerConfig& scenario,
                const std::string& config_text, const LoopOptions& loop, bus::Transport& transport);
 

@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <stdexcept>
 #include <string_view>
-
-#include "reed/rt/errno_text.h"
 
 namespace reed::telemetry {
 namespace {
-
-std::FILE* Open(const std::string& path) {
-  if (path.empty()) return nullptr;
-  std::FILE* file = std::fopen(path.c_str(), "we");
-  if (file == nullptr) throw std::runtime_error("CAN log " + path + ": " + rt::ErrnoText());
-  return file;
-}
 
 constexpr std::int64_t kMicroseconds = 1'000'000;  // of a second
 constexpr char kHex[] = "0123456789ABCDEF";
@@ -43,7 +33,9 @@ std::string OneWord(std::string name) {
 }  // namespace
 
 CandumpLog::CandumpLog(const std::string& path, const std::string& interface)
-    : middle_(") " + OneWord(interface) + " "), stream_(Open(path)), file_(stream_.get(), path, buffer_) {}
+    : middle_(") " + OneWord(interface) + " "),
+      stream_(OpenRecordFile("CAN log", path)),
+      file_(stream_.get(), path, buffer_) {}
 
 void CandumpLog::Write(const bus::Frame& frame, std::int64_t utime) {
   if (!file_.good()) {

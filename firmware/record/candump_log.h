@@ -24,12 +24,9 @@ class CandumpLog {
   const SinkReport& report() const noexcept { return file_.report(); }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::string middle_;  // of a line: ") name "
   RecordBuffer buffer_ = MakeRecordBuffer();
-  std::unique_ptr<std::FILE, Close> stream_;
+  FileHandle stream_;
   RecordFile file_;
 };
 

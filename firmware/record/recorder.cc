@@ -143,13 +143,15 @@ void Recorder::Record(const Snapshot& snapshot) {
   }
   if (snapshot.cycle >= next_bus_cycle_) RecordBus(snapshot.bus, snapshot.cycle, utime);
 
-  writing_.store(&candump_.report().name, std::memory_order_relaxed);
-  snapshot.ForEachFrame([&](const RecordedFrame& recorded) {
-    candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
-  });
+  if (candump_.enabled()) {
+    writing_.store(&candump_.report().name, std::memory_order_relaxed);
+    snapshot.ForEachFrame([&](const RecordedFrame& recorded) {
+      candump_.Write(recorded.frame, time_.Utime(snapshot.cycle, snapshot.time_ns + recorded.offset_ns));
+    });
+    report_.frames_omitted += snapshot.frames_omitted;
+  }
   writing_.store(&tape_.report().name, std::memory_order_relaxed);
   tape_.Write(snapshot);
-  if (candump_.enabled()) report_.frames_omitted += snapshot.frames_omitted;
   ++report_.snapshots;
   last_bus_ = snapshot.bus;
   last_cycle_ = snapshot.cycle;

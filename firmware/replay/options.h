@@ -9,7 +9,7 @@ namespace reed {
 
 struct ReplayOptions {
   std::string tape, out;
-  std::string config;  // empty: the tape's own
+  std::string config;  // as the tape holds it
   LoadOptions load;
   std::string law;  // LIB.so[:ARGUMENT]; empty: the scenario's
 };

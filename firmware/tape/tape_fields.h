@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 11> kInputs{
     "timing.dropped",   "bus.frames_rx",     "bus.frames_tx", "bus.malformed",
     "bus.error_frames", "bus.overflowed",    "bus.tx_refused"};
 
-constexpr Role RoleOf(std::string_view name) {
+consteval Role RoleOf(std::string_view name) {
   return std::find(kInputs.begin(), kInputs.end(), name) != kInputs.end() ? Role::kInput : Role::kOutput;
 }
 
@@ -29,15 +29,12 @@ template <typename S, typename V>
 void Fields(S& s, int dof, int num_parameters, V&& v) {
   const auto in = [&](const char* name, auto& value) { v(Role::kInput, name, &value, 1); };
   const auto out = [&](const char* name, auto& value) { v(Role::kOutput, name, &value, 1); };
-  const auto telemetry = [&](const char* name, auto& value) {
+  const auto telemetry = [&](Role role, const char* name, auto& value) {
     if constexpr (requires { value.data(); }) {
       const int room = static_cast<int>(value.size());
-      v(RoleOf(name), name, value.data(),
-        room == kMaxJoints       ? dof
-        : room == kMaxParameters ? num_parameters
-                                 : room);
+      v(role, name, value.data(), room == kMaxJoints ? dof : room == kMaxParameters ? num_parameters : room);
     } else {
-      v(RoleOf(name), name, &value, 1);
+      v(role, name, &value, 1);
     }
   };
 
@@ -60,16 +57,18 @@ void Fields(S& s, int dof, int num_parameters, V&& v) {
   out("loop.hold", s.loop.hold);
   out("loop.degrade", s.loop.degrade);
 
-#define REED_TAPE_MEASURED(Type, name, ...) telemetry("measured." #name, s.measured.name);
-#define REED_TAPE_CONTROL(Type, name, ...) telemetry("control." #name, s.control.name);
-#define REED_TAPE_ADAPTATION(Type, name, ...) telemetry("adaptation." #name, s.adaptation.name);
-#define REED_TAPE_BUS(Type, name, ...) telemetry("bus." #name, s.bus.name);
-#define REED_TAPE_TIMING(Type, name, ...) telemetry("timing." #name, s.timing.name);
+#define REED_TAPE(group, name) telemetry(RoleOf(#group "." #name), #group "." #name, s.group.name);
+#define REED_TAPE_MEASURED(Type, name, ...) REED_TAPE(measured, name)
+#define REED_TAPE_CONTROL(Type, name, ...) REED_TAPE(control, name)
+#define REED_TAPE_ADAPTATION(Type, name, ...) REED_TAPE(adaptation, name)
+#define REED_TAPE_BUS(Type, name, ...) REED_TAPE(bus, name)
+#define REED_TAPE_TIMING(Type, name, ...) REED_TAPE(timing, name)
   REED_MEASURED_T(REED_TAPE_MEASURED)
   REED_CONTROL_T(REED_TAPE_CONTROL)
   REED_ADAPTATION_T(REED_TAPE_ADAPTATION)
   REED_BUS_T(REED_TAPE_BUS)
   REED_TIMING_T(REED_TAPE_TIMING)
+#undef REED_TAPE
 #undef REED_TAPE_MEASURED
 #undef REED_TAPE_CONTROL
 #undef REED_TAPE_ADAPTATION

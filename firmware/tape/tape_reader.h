@@ -11,6 +11,7 @@
 #include "reed/firmware/snapshot/snapshot.h"
 #include "reed/firmware/tape/tape_format.h"
 #include "reed/firmware/tape/tape_header.h"
+#include "reed/telemetry/record_file.h"
 
 namespace reed::tape {
 
@@ -27,13 +28,10 @@ class TapeReader {
   bool complete() const noexcept { return complete_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   bool ReadRecord() noexcept;
   void FindInputs(const std::string& path);
 
-  std::unique_ptr<std::FILE, Close> file_;
+  telemetry::FileHandle file_;
   Header header_;
   RecordHead head_{};
   std::vector<std::uint8_t> payload_;

@@ -1,10 +1,8 @@
 #include "reed/firmware/tape/tape_writer.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "reed/firmware/tape/tape_fields.h"
-#include "reed/rt/errno_text.h"
 
 namespace reed::tape {
 namespace {
@@ -12,21 +10,16 @@ namespace {
 /// Before stdio's buffer is full, so that the kernel sees whole records only.
 constexpr std::size_t kFlushBytes = 512 << 10;
 
-std::FILE* Open(const std::string& path) {
-  if (path.empty()) return nullptr;
-  std::FILE* file = std::fopen(path.c_str(), "we");
-  if (file == nullptr) throw std::runtime_error("tape " + path + ": " + rt::ErrnoText());
-  return file;
-}
-
 }  // namespace
 
 TapeWriter::TapeWriter(const std::string& path, const Header& header)
     : joints_(header.joints),
       parameters_(header.parameters),
-      stream_(Open(path)),
+      buffer_(path.empty() ? nullptr : telemetry::MakeRecordBuffer()),
+      stream_(telemetry::OpenRecordFile("tape", path)),
       file_(stream_.get(), path, buffer_) {
   if (!enabled()) return;
+  record_.resize(sizeof(RecordHead) + kMostBytes + sizeof(std::uint32_t));
   const std::string text = ToText(header);
   if (text.size() > kMostBytes)
     throw std::runtime_error("tape " + path + ": the configuration has " + std::to_string(text.size()) +

@@ -29,20 +29,16 @@ class TapeWriter {
   const telemetry::SinkReport& report() const noexcept { return file_.report(); }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   template <typename T>
   void Append(const T* first, std::size_t count = 1);
   void Begin(Kind kind);
   void Finish();
 
   int joints_, parameters_;
-  telemetry::RecordBuffer buffer_ = telemetry::MakeRecordBuffer();
-  std::unique_ptr<std::FILE, Close> stream_;
+  telemetry::RecordBuffer buffer_;  // none without a file
+  telemetry::FileHandle stream_;
   telemetry::RecordFile file_;
-  std::vector<std::uint8_t> record_ =
-      std::vector<std::uint8_t>(sizeof(RecordHead) + kMostBytes + sizeof(std::uint32_t));
+  std::vector<std::uint8_t> record_;
   std::size_t used_ = 0;  // of record_
   std::size_t pending_bytes_ = 0;
   std::int64_t cycles_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "reed/plant/drive/drive_state.h"
 
@@ -27,7 +28,7 @@ Robot::Robot(const PlantConfig& config, ArmBody& body, Journal& journal)
 void Robot::Reset() {
   body_.Reset(start_rad_);
   drives_.Reset();
-  applied_Nm_ = drives_.torque_Nm();
+  excited_Nm_ = drives_.torque_Nm();  // its size, so that Advance allocates nothing
   wrench_.Reset();
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     speeds_[i].Reset(encoder_.Read(start_rad_[static_cast<Eigen::Index>(i)]));
@@ -89,9 +90,12 @@ void Robot::Silence(double periods) {
 }
 
 void Robot::Advance(double dt_s) {
-  applied_Nm_ = drives_.torque_Nm();
-  if (excitation_.active() && !drives_.braked()) applied_Nm_[excitation_.joint()] += excitation_.At(time_s_);
-  body_.Advance(applied_Nm_, drives_.braked(), dt_s);
+  const bool excited = excitation_.active() && !drives_.braked();
+  if (excited) {
+    excited_Nm_ = drives_.torque_Nm();
+    excited_Nm_[excitation_.joint()] += excitation_.At(time_s_);
+  }
+  body_.Advance(excited ? std::as_const(excited_Nm_) : drives_.torque_Nm(), drives_.braked(), dt_s);
   time_s_ += dt_s;
   if (!body_.healthy()) {
     const bus::DriveState before = drives_.state();

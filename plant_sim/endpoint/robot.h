@@ -67,7 +67,7 @@ class Robot {
   Eigen::VectorXd start_rad_;
   DriveChain drives_;
   TorqueExcitation excitation_;
-  Eigen::VectorXd applied_Nm_;  // of the drives and the excitation
+  Eigen::VectorXd excited_Nm_;  // what the arm gets while there is an excitation
   Encoder encoder_;
   std::vector<VelocityFilter> speeds_;
   WrenchSensor wrench_;

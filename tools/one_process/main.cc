@@ -19,6 +19,7 @@ int Run(OneProcessOptions options) {
   rt::UseSmallThreadStacks();
   const ControllerConfig scenario = LoadControllerConfig(options.config, options.load);
   const LoopOptions loop = PlanLoop(scenario);
+  const bool tape = !options.control.tape.empty();
   const bool quiet = options.control.quiet;
 
   bus::MemoryWire wire;
@@ -27,7 +28,8 @@ int Run(OneProcessOptions options) {
   PlantSide side(LoadPlantConfig(options.config, options.load), wire, publisher);
   options.control.for_others = &side.usage();
 
-  const int controller = ControlArm(options.control, scenario, TextOf(scenario), loop, wire.controller);
+  const int controller =
+      ControlArm(options.control, scenario, tape ? TextOf(scenario) : std::string(), loop, wire.controller);
   side.Rethrow();
   const int plant = plant::Conclude(side.endpoint(), publisher, quiet);
   return plant != 0 ? plant : controller;
