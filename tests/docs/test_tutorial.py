@@ -7,6 +7,7 @@ import shlex
 import subprocess
 
 import pytest
+from built import reed
 from PIL import Image
 
 from reed_tools.paths import PYTHON, ROOT
@@ -23,13 +24,9 @@ def runs(tmp_path_factory):
     """The folders that stand for out/RUN and out/OTHER."""
     folder = tmp_path_factory.mktemp("out")
     for name, stiffness in (("RUN", 10000), ("OTHER", 12000)):
-        done = reed(["run", "press_known", "--bus", "memory", "--duration", "1.2", "--set", f"wall.stiffness_Npm={stiffness}", "--out", str(folder / name)])
+        done = reed("run", "press_known", "--bus", "memory", "--duration", "1.2", "--set", f"wall.stiffness_Npm={stiffness}", "--out", str(folder / name), cwd=ROOT)
         assert done.returncode in (0, 1), done.stderr
     return folder
-
-
-def reed(words, cwd=ROOT):
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *words], cwd=cwd, capture_output=True, text=True, timeout=300)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -43,7 +40,7 @@ def test_every_command_of_the_tutorial_runs(command, runs, tmp_path):
         words = [*words[:2], *QUICK["campaign"]]
     if words[0] in ("run", "campaign", "compare"):
         words += ["--out", str(tmp_path / "out")]
-    done = reed(words)
+    done = reed(*words, cwd=ROOT)
     assert done.returncode in STATUS[words[0]], (words, done.stdout[-500:], done.stderr)
 
 

@@ -1,14 +1,13 @@
 """Every command of docs/your_robot.md, in its order, as a reader types them: with a UR5 as the robot."""
 
-import os
 import re
 import shlex
-import subprocess
 
 import pytest
+from built import reed
 from robot_files import urdf
 
-from reed_tools.paths import BUILD, PYTHON, ROOT
+from reed_tools.paths import ROOT
 
 RECORDED = "bus.candump"  # of a real arm; here that of the run before
 
@@ -34,8 +33,7 @@ def test_a_command_of_the_tutorial_does_what_it_says(words, desk):
     if RECORDED in words:
         (desk / RECORDED).write_bytes((desk / "out" / "excite" / RECORDED).read_bytes())
     before = set(desk.rglob("*"))
-    done = subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *words], cwd=desk, capture_output=True, text=True,
-                          timeout=600, env={**os.environ, "REED_BUILD_DIR": str(BUILD)})
+    done = reed(*words, cwd=desk)
     assert done.returncode == 0, done.stdout + done.stderr
     written = [words[k + 1] for k, word in enumerate(words) if word in ("--out", "--write")]
     assert all((desk / name).exists() for name in written) and (not written or set(desk.rglob("*")) > before)

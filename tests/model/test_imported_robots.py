@@ -7,6 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from imported import ROBOTS, BODY, imported, pinocchio_of, text_of
+from pinocchio_dynamics import dynamics
 
 from reed_tools.arms import arm_file
 from reed_tools.robots import nominal
@@ -23,20 +24,11 @@ def answers(program, path, states):
 
 
 def expected(model, base, tip, state):
-    data, world = model.createData(), pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
     q, qd, qdd, v, vd = state
     q = pin.integrate(model, pin.neutral(model), q)  # joints without an end have two coordinates there
-    pin.forwardKinematics(model, data, q, qd, np.zeros(model.nv))
-    pin.updateFramePlacements(model, data)
     frame = model.getFrameId(tip, BODY)
-    out = {"T": data.oMf[model.getFrameId(base, BODY)].actInv(data.oMf[frame]).homogeneous,
-           "Jdot_qd": pin.getFrameClassicalAcceleration(model, data, frame, world).vector.copy(),
-           "J_world_lin_ang": pin.computeFrameJacobian(model, data, q, frame, world).copy()}
-    M = pin.crba(model, data, q)
-    out["M"] = np.triu(M) + np.triu(M, 1).T
-    out["G"] = pin.computeGeneralizedGravity(model, data, q).copy()
-    out["C_qd"] = pin.rnea(model, data, q, qd, np.zeros(model.nv)) - out["G"]
-    out["tau"] = pin.rnea(model, data, q, qd, qdd).copy()
+    data, out = dynamics(model, frame, q, qd, qdd)
+    out["T"] = data.oMf[model.getFrameId(base, BODY)].actInv(data.oMf[frame]).homogeneous
     out["Yp"] = out["M"] @ vd + pin.computeCoriolisMatrix(model, data, q, qd) @ v + out["G"]
     return out
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from pinocchio_dynamics import dynamics
 
 STATES = 1000
 LIMIT = 1e-10
@@ -61,19 +62,8 @@ def states_and_results(arm, inspect, tmp_path):
 
 
 def expected(model, frame, state):
-    data = model.createData()
     q, qd, qdd = (np.array(state[k]) for k in ("q", "qd", "qdd"))
-    world = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-    pin.forwardKinematics(model, data, q, qd, np.zeros(model.nv))
-    pin.updateFramePlacements(model, data)
-    acceleration = pin.getFrameClassicalAcceleration(model, data, frame, world)
-    out = {"T": data.oMf[frame].homogeneous, "Jdot_qd": acceleration.vector.copy(),
-           "J_world_lin_ang": pin.computeFrameJacobian(model, data, q, frame, world).copy()}
-    M = pin.crba(model, data, q)
-    out["M"] = np.triu(M) + np.triu(M, 1).T
-    out["G"] = pin.computeGeneralizedGravity(model, data, q).copy()
-    out["C_qd"] = pin.rnea(model, data, q, qd, np.zeros(model.nv)) - out["G"]
-    out["tau"] = pin.rnea(model, data, q, qd, qdd).copy()
+    data, out = dynamics(model, frame, q, qd, qdd)
     out["kinetic"] = pin.computeKineticEnergy(model, data, q, qd)
     out["potential"] = pin.computePotentialEnergy(model, data, q)
     return out

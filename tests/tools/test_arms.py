@@ -14,7 +14,8 @@ from reed_tools import cli
 from reed_tools.arms import arm_file, check, export_urdf, picture, serial, urdf
 from reed_tools.errors import UsageError
 from reed_tools.robots import nominal, pseudo_inertia, regressor
-from reed_tools.robots.chain import rotation_rpy, rpy_of, turn_of_z
+from reed_tools.robots.chain import rpy_of, turn_of_z
+from reed_tools.robots.joint_frames import rotation_rpy
 
 STATES = 200
 

@@ -6,10 +6,11 @@ import subprocess
 
 import numpy as np
 import pytest
+from built import reed
 
 from reed_tools.bode import multisine
 from reed_tools.bode.loop_gain import LoopGain, estimate, margins
-from reed_tools.paths import PYTHON, ROOT, program
+from reed_tools.paths import program
 
 STILL = """arm = "a5"
 [scenario]
@@ -28,10 +29,6 @@ p_true = [0.4, 0.05, 0.05, 0.3, 0.2, 0.0]
 [sensors]
 encoder_bits = 26
 """
-
-
-def reed(*argv):
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)], capture_output=True, text=True)
 
 
 def planted(f, gain, delay_s):

@@ -7,6 +7,7 @@ import shlex
 import subprocess
 
 import pytest
+from built import reed as tools  # with the programs that are built; the fixture has stand-ins
 
 from reed_tools.cli import COMMANDS
 from reed_tools.paths import PYTHON, ROOT
@@ -22,11 +23,6 @@ cli.{what}({name!r})
 loaded = {{module.partition(".")[0] for module in set(sys.modules) - standing}} - set(sys.stdlib_module_names) - {{"reed_tools"}}
 print(*sorted(module for module in loaded if not module.startswith("_")))
 """
-
-
-def tools(*argv):
-    """With the programs that are built, not with stand-ins."""
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *argv], capture_output=True, text=True)
 
 
 @pytest.mark.parametrize("name", COMMANDS)

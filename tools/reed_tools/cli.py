@@ -1,4 +1,4 @@
-"""The command line. A command is a module with add_arguments(parser) and run(arguments) -> exit status, or with
+"""The command line. A command is a module with EXAMPLE, add_arguments(parser) and run(arguments) -> exit status, or with
 pass_through(argv) when another program reads the options. Only the module of the command that was asked for is imported: starting stays quick."""
 
 import argparse
@@ -114,7 +114,8 @@ def module_of(name: str):
 
 
 def parser_of(name: str) -> OneLineParser:
-    parser = OneLineParser(prog=f"tools/reed {name}", description=COMMANDS[name][1] + ".", epilog=EXIT_STATUS,
+    module = module_of(name)
+    parser = OneLineParser(prog=f"tools/reed {name}", description=COMMANDS[name][1] + ".", epilog=f"{module.EXAMPLE}\n\n{EXIT_STATUS}",
                            formatter_class=argparse.RawDescriptionHelpFormatter)
-    module_of(name).add_arguments(parser)
+    module.add_arguments(parser)
     return parser

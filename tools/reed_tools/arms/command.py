@@ -3,10 +3,10 @@
 import argparse
 import json
 import re
-from pathlib import Path
 
 from reed_tools import folders
 from reed_tools.errors import UsageError
+from reed_tools.record.whole_file import require_new, write_new
 from reed_tools.text import plain
 
 EXAMPLE = """examples:
@@ -21,7 +21,6 @@ def add_arguments(parser) -> None:
 
     def verb(name: str, text: str):
         found = verbs.add_parser(name, help=text, description=text + ".", epilog=parser.epilog, formatter_class=argparse.RawDescriptionHelpFormatter)
-        found.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
         return found
 
     taken = verb("import", "an arm file from a URDF: chain, links, limits, friction; the rest by rule, marked as assumed")
@@ -44,36 +43,21 @@ def add_arguments(parser) -> None:
     drawn.add_argument("arm", metavar="NAME|FILE")
     drawn.add_argument("--at", metavar="Q1,Q2,...", help="the pose, rad; default the middle of every range")
     drawn.add_argument("--out", metavar="FILE", type=folders.argument, help="the PNG; default arm-NAME.png")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
     return {"import": take, "export": give, "check": check, "show": show}[arguments.verb](arguments)
 
 
-def new(target: Path) -> Path:
-    if target.exists():
-        raise UsageError(f"--out {target}: is there already; nothing was overwritten")
-    return target
-
-
-def write(target: Path, text: str) -> None:
-    from reed_tools.record.whole_file import write_text
-
-    try:
-        write_text(target, text)
-    except OSError as error:
-        raise UsageError(f"--out {target}: {(error.strerror or str(error)).lower()}") from None
-
-
 def take(arguments) -> int:
     from reed_tools.arms import arm_file, serial, urdf
 
-    target = new(arguments.out)
+    target = arguments.out
+    require_new("--out", target)
     robot = urdf.read(arguments.urdf)
     found = serial.serial_of(robot, arguments.base, arguments.tip, limits_of(arguments.limit))
     name = re.sub(r"[^A-Za-z0-9_.-]", "_", robot.name)
-    write(target, arm_file.text_of(found, name, plain(arguments.urdf.name)))
+    write_new("--out", target, arm_file.text_of(found, name, plain(arguments.urdf.name)))
     if arguments.json:
         print(json.dumps({"arm": name, "file": str(target), "dof": len(found.joints), "base": found.base, "tip": found.tip, "held": found.held}))
         return 0
@@ -100,10 +84,11 @@ def give(arguments) -> int:
     from reed_tools.arms import export_urdf
     from reed_tools.robots import nominal
 
-    target = new(arguments.out)
+    target = arguments.out
+    require_new("--out", target)
     table = nominal.read(nominal.path_of(arguments.arm))
     arm = nominal.load(arguments.arm)
-    write(target, export_urdf.urdf_of(arm, table))
+    write_new("--out", target, export_urdf.urdf_of(arm, table))
     print(f"written {target}")
     return 0
 

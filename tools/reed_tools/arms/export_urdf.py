@@ -4,7 +4,8 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
-from reed_tools.robots.chain import rpy_of, transform_of
+from reed_tools.robots.chain import rpy_of
+from reed_tools.robots.joint_frames import transform_of
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.robots.pseudo_inertia import body_parts
 from reed_tools.robots.regressor import PER_LINK

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools.errors import UsageError
-from reed_tools.robots.chain import rotation_rpy
+from reed_tools.robots.joint_frames import rotation_rpy
 from reed_tools.robots.nominal import inertial
 from reed_tools.text import plain
 

@@ -13,13 +13,13 @@ SYSTEM_CALLS = {"0": "read", "1": "write", "9": "mmap", "12": "brk", "35": "nano
                 "230": "clock_nanosleep", "257": "openat", "318": "getrandom"}  # x86-64
 PROMISES = {"exceptions": "throws nothing and does not end the process", "finite": "answers finite torques",
             "heap": "never allocates", "page_faults": "touches no new memory", "system_calls": "makes no system call"}
+EXAMPLE = "example: tools/reed budget --law build/own_law/libown_law.so"
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("--law", required=True, metavar="LIB.so", help="a shared library with the functions of reed/law.h")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     parser.add_argument("--no-pinocchio", action="store_true", help="do not build and time the step put together from Pinocchio")
-    parser.epilog = f"example: tools/reed budget --law build/own_law/libown_law.so\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -43,7 +43,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--slices", type=int, metavar="N", help="alternating slices per side; default 3, quick 1")
     parser.add_argument("--out", type=folders.argument, metavar="DIR", help="folder for bench.json and bench.png; default out/<time>-bench")
     parser.add_argument("--json", action="store_true", help="print the content of bench.json, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -6,6 +6,7 @@ Each of its integrators runs at the largest step of 4 ms / √2^k at which the s
 largest distance between the tip's path to rest and the same side's path at steps of 10 us: what the step costs in accuracy, not
 what the model does."""
 
+import functools
 import importlib.util
 import json
 import subprocess
@@ -71,8 +72,13 @@ def plant(joints: int, elements: int, step_s: float) -> Cost:
     """a5, or a chain of so many equal links where `joints` is not zero."""
     found = probe("bench", joints, 1, elements, step_s, SLICES * SLICE_S)
     side = f"{joints} joints" if joints else f"{elements} element{'s' if elements > 1 else ''} per member"
-    error_mm = None if joints else farthest_mm(path(found), path(probe("bench", 0, 1, elements, FINE_STEP_S, PATH_S)))
+    error_mm = None if joints else farthest_mm(path(found), fine_path(elements))
     return report(Cost(side, found["coordinates"], step_s, 1.0 / found["cpu_per_simulated_s"], error_mm), "plant")
+
+
+@functools.cache
+def fine_path(elements: int) -> np.ndarray:
+    return path(probe("bench", 0, 1, elements, FINE_STEP_S, PATH_S))
 
 
 def path(found: dict) -> np.ndarray:
@@ -98,17 +104,17 @@ def mujoco_costs(arm: dict) -> list[Cost]:
         for integrator in INTEGRATORS:
             chain = Chain(arm, cuts, integrator)
             floor = float(at_pose(chain.model(FINE_STEP_S, None)).site("tip").xpos[2]) - 0.0015
-            reference = mujoco_path(mujoco, chain.model(FINE_STEP_S, floor), FINE_STEP_S)
+            reference = mujoco_path(mujoco, chain.model(FINE_STEP_S, floor))
             for step in STEPS_S:
                 model = chain.model(step, floor)
                 if (spent := processor_time(mujoco, model, at_pose(model), step)) is not None:
-                    error_mm = farthest_mm(mujoco_path(mujoco, model, step), reference)
+                    error_mm = farthest_mm(mujoco_path(mujoco, model), reference)
                     costs.append(report(Cost(integrator, model.nv, step, 1.0 / spent, error_mm), "MuJoCo"))
                     break
     return costs
 
 
-def mujoco_path(mujoco, model, step_s: float) -> np.ndarray:
+def mujoco_path(mujoco, model) -> np.ndarray:
     """The tip every PATH_EVERY_S; between two steps on the straight line that joins them."""
     from reed_tools.robots.mujoco_chain import at_pose
     data, times, tips = at_pose(model), [0.0], []

@@ -11,13 +11,12 @@ from reed_tools import folders, streams
 from reed_tools.bode import multisine, standing
 from reed_tools.bode.loop_gain import LoopGain, Margins, estimate, margins
 from reed_tools.errors import RunError, UsageError
-from reed_tools.run import hil, plans, scenario
+from reed_tools.run import hil, in_memory, scenario
 
 SETTLE_S = 1.5           # after the last motion that was asked for
 MOST_PERIODS = 100
 PEAK_SHARE = 0.05        # of the torque limit
 AT_LIMIT = 0.999
-STOPPED, USAGE = 1, 2    # statuses of the firmware
 EXAMPLE = """examples:
   tools/reed bode press_known --joint 2                # in contact, pressing
   tools/reed bode free_motion --joint 1 --out out/bode # free; bode.json and bode.png in a folder"""
@@ -32,7 +31,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="override; repeatable")
     parser.add_argument("--out", type=folders.argument, metavar="DIR", help="folder for bode.json and bode.png; default out/<time>-bode-<scenario>")
     parser.add_argument("--json", action="store_true", help="print the content of bode.json, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 @dataclass(frozen=True)
@@ -66,7 +64,7 @@ def run(arguments) -> int:
 def measure(name: str, joint: int, amplitude_Nm: float | None, periods: int, entries: list[str]) -> Measured:
     with tempfile.TemporaryDirectory(prefix="reed-bode-") as scratch:
         effective = scenario.write_effective(name, None, entries, Path(scratch, "asked.toml"))
-        standing.joint_number(effective, joint)
+        standing.require_joint(effective, joint)
         rate_hz = effective["timing"]["rate_hz"]
         lines = multisine.frequencies(rate_hz)
         limit_Nm = effective["arm"]["torque_limit"][joint - 1]
@@ -87,22 +85,16 @@ def measure(name: str, joint: int, amplitude_Nm: float | None, periods: int, ent
 
 def recorded(effective: dict, config: Path, folder: Path, joint: int, begin_s: float, count: int, amplitude_Nm: float, lines: list[float]):
     """u and w of `count` cycles. The plant notes at a SYNC its time and the torque of the period before it."""
-    from reed_tools.record import telemetry_log
-
-    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder, lcm=False, candump=False)
-    outcome = hil.run(plan, lambda mode, t_s: None)
-    if outcome.interrupted:
+    ended = in_memory.run(effective, config, folder)
+    if ended.outcome.interrupted:
         raise RunError("interrupted")
-    (status,) = outcome.statuses.values()
-    said = hil.last_words(plan, plan.controller)
-    if status == USAGE:
-        raise UsageError(said)
-    if status == STOPPED:
-        raise UsageError(f"the arm stopped under the excitation of {amplitude_Nm:g} N·m: {said}; a smaller --amplitude may not")
-    if status or outcome.stopped_because:
-        raise RunError(f"{outcome.stopped_because or f'the program ended with {status}'}; {said}")
-    recording = telemetry_log.load(plan.log("firmware"), plan.log("plant"))
-    plant = recording.tables["REED_PLANT"]
+    if ended.status == hil.REFUSED:
+        raise UsageError(ended.said)
+    if ended.status == hil.STOPPED:
+        raise UsageError(f"the arm stopped under the excitation of {amplitude_Nm:g} N·m: {ended.said}; a smaller --amplitude may not")
+    if ended.died:
+        raise RunError(ended.died)
+    plant = ended.recording().tables["REED_PLANT"]
     t_s, torque = plant["t_s"], plant["torque"][:, joint - 1]
     free = np.flatnonzero(~plant["braked"].astype(bool))
     first = np.searchsorted(t_s, t_s[free[0]] + begin_s) if len(free) else len(t_s)

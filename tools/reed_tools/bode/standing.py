@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from reed_tools.errors import UsageError
+from reed_tools.robots.joint_frames import dof
 
 MOVING = ("joint", "cartesian")
 
@@ -32,8 +33,7 @@ def there_s(effective: dict) -> float:
     return max(end, force["start_s"] + force["ramp_s"]) if force["source"] != "none" and force["desired_N"] > 0 else end
 
 
-def joint_number(effective: dict, joint: int) -> int:
-    dof = len(effective["arm"]["rotor_inertia_reflected"])
-    if not 1 <= joint <= dof:
-        raise UsageError(f"--joint {joint}: allowed: 1 to {dof}")
-    return joint
+def require_joint(effective: dict, joint: int) -> None:
+    count = dof(effective["arm"])
+    if not 1 <= joint <= count:
+        raise UsageError(f"--joint {joint}: allowed: 1 to {count}")

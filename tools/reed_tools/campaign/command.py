@@ -7,13 +7,13 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from reed_tools import folders, streams, versions
+from reed_tools import folders, streams
 from reed_tools.campaign import definition, draws, junit, one_draw, progress, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
 from reed_tools.engine import options as engine_options
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
-from reed_tools.run import hil, plans, scenario
+from reed_tools.run import in_memory, scenario
 
 OPTIONS = "options.json"  # of the folder: what --resume goes on with
 OWN_FILES = ("campaign.toml", OPTIONS, draws.FILE, "summary.json", junit.FILE, "campaign.html", "distributions.png", "causes.png")
@@ -38,7 +38,6 @@ def add_arguments(parser) -> None:
     where.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-campaign-<name>")
     where.add_argument("--resume", type=folders.argument, metavar="DIR", help="go on with the campaign in DIR: finished draws are kept")
     parser.add_argument("--json", action="store_true", help="print the content of summary.json, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -60,7 +59,7 @@ def run_draws(arguments, folder: Path, campaign: Campaign, indices: list[int]) -
     pending = [index for index in indices if index not in finished]
     print(f"campaign {campaign.name}: {len(indices)} draws of {campaign.scenario}, {len(pending)} to run, "
           f"{engine_options.place(arguments)}", flush=True)
-    build = versions.build(plans.names(hil.MEMORY).values())
+    build = in_memory.build()
     repeats, interrupted = [], False
     if pending or arguments.repeat:
         refuse_early(campaign, indices[0])

@@ -7,11 +7,9 @@ from pathlib import Path
 
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record
-from reed_tools.engine import one_run
 from reed_tools.errors import UsageError
-from reed_tools.run import hil, scenario
+from reed_tools.run import hil, in_memory, scenario
 
-STOPPED, REFUSED = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 NOT_READ_BY_FIGURES = ("wall.", "plant.", "force.", "disturbance.", "sensors.", "drives.", "scenario.seed")
 
 
@@ -41,24 +39,22 @@ def run_draw(campaign: Campaign, build: str, index: int, interrupted: list) -> R
 def run_entries(campaign: Campaign, build: str, index: int, entries: list[str], interrupted: list) -> Record | None:
     """The campaign's scenario with `entries` over it. Raises what refuses them."""
     from reed_tools.figures import checks, summary
-    from reed_tools.record import signals, telemetry_log
+    from reed_tools.record import signals
 
     record = Record(index, campaign.definition(), build, entries, "finished")
     effective = known_to_figures(campaign, entries)
     with tempfile.TemporaryDirectory(prefix="reed-draw-") as scratch:
-        plan, outcome = one_run.in_memory(effective, campaign.scenario, Path(scratch), interrupted, entries)
-        if outcome.interrupted:
+        ended = in_memory.run(effective, campaign.scenario, Path(scratch), interrupted, entries)
+        if ended.outcome.interrupted:
             return None
-        (status,) = outcome.statuses.values()
-        said = hil.last_words(plan, plan.controller)
-        if status == REFUSED:
-            raise UsageError(said)
-        if outcome.stopped_because or status not in (0, STOPPED):
-            record.status, record.message = "died", f"{outcome.stopped_because or f'the program ended with {status}'}; {said}"
+        if ended.status == hil.REFUSED:
+            raise UsageError(ended.said)
+        if ended.died:
+            record.status, record.message = "died", ended.died
             return record
-        if status == STOPPED:
-            record.status, record.message = "fault", said
-        recording = telemetry_log.load(plan.log("firmware"), plan.log("plant"))
+        if ended.status == hil.STOPPED:
+            record.status, record.message = "fault", ended.said
+        recording = ended.recording()
         data = summary.run_data(effective, recording, signals.join(recording))
         record.checks, record.digest = checks.evaluate(effective["checks"], data), recording.digest("lockstep")
         record.stability = checks.evaluate(campaign.stable, data)

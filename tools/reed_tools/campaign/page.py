@@ -5,6 +5,7 @@ from pathlib import Path
 
 from reed_tools import versions
 from reed_tools.record.whole_file import write_text
+from reed_tools.run import in_memory
 from reed_tools.show.html_parts import again, mark, page, picture, table
 from reed_tools.show.tables import number
 
@@ -50,7 +51,7 @@ def write(folder: Path, summary: dict, definition_text: str, pictures: list[Path
             f"lockstep<br>programs {html.escape(', '.join(summary['builds']))}, definition {summary['definition'][:16]}</p>")
     shown = "\n".join(picture(path, CAPTIONS[path.stem]) for path in pictures)
     sections = [("Limits", limits(summary)), ("Figures", figures(summary)), ("Distributions", shown),
-                ("Worst draws, ready to run again", worst(summary)), ("The same campaign again", again(command, [name for name in RAW if (folder / name).is_file()], versions.all_of_them())),
+                ("Worst draws, ready to run again", worst(summary)), ("The same campaign again", again(command, [name for name in RAW if (folder / name).is_file()], versions.all_of_them(in_memory.programs()))),
                 ("Definition", f"<pre>{html.escape(definition_text)}</pre>")]
     body = "\n".join(f"<h2>{name}</h2>\n{content}" for name, content in sections)
     path = folder / FILE

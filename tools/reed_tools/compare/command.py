@@ -23,7 +23,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("folders", nargs="+", metavar="RUN", type=folders.argument, help="folders of runs, or of campaigns: two or more")
     parser.add_argument("--json", action="store_true", help="print {runs, differences: [{figure, values}]} and write no page")
     parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder of the page; default out/<time>-compare")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

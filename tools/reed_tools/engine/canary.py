@@ -10,11 +10,8 @@ from pathlib import Path
 from distributed import Status
 from distributed.diagnostics.plugin import WorkerPlugin
 
-from reed_tools import versions
-from reed_tools.engine import one_run
 from reed_tools.paths import ARMS, SCENARIOS
-from reed_tools.record import telemetry_log
-from reed_tools.run import hil, plans, scenario
+from reed_tools.run import in_memory, scenario
 
 SCENARIO, ENTRIES = "press_known", ["scenario.duration_s=0.5", "scenario.seed=77"]
 verdicts: dict[str, str] = {}  # in a worker, by session: "" or why it gets no run
@@ -34,7 +31,7 @@ class Identity:
 
 
 def identity() -> Identity:
-    return Identity(versions.build(plans.names(hil.MEMORY).values()), config_digest(), run())
+    return Identity(in_memory.build(), config_digest(), run())
 
 
 def config_digest() -> str:
@@ -47,11 +44,10 @@ def config_digest() -> str:
 def run() -> str:
     with tempfile.TemporaryDirectory(prefix="reed-canary-") as scratch:
         config = Path(scratch, "effective.toml")
-        plan, outcome = one_run.in_memory(scenario.write_effective(SCENARIO, None, ENTRIES, config), config, Path(scratch), [])
-        (status,) = outcome.statuses.values()
-        if status or outcome.stopped_because:
-            return f"none: {outcome.stopped_because or f'status {status}'}; {hil.last_words(plan, plan.controller)}"
-        return telemetry_log.load(plan.log("firmware"), plan.log("plant")).digest("lockstep")
+        ended = in_memory.run(scenario.write_effective(SCENARIO, None, ENTRIES, config), config, Path(scratch), [])
+        if ended.status or ended.outcome.stopped_because:
+            return f"none: {ended.outcome.stopped_because or f'status {ended.status}'}; {ended.said}"
+        return ended.recording().digest("lockstep")
 
 
 class Canary(WorkerPlugin):

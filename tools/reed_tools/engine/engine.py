@@ -10,7 +10,6 @@ is not empty any more before the end."""
 import itertools
 import pickle
 import queue
-import signal
 import threading
 import time
 import uuid
@@ -29,22 +28,20 @@ AHEAD = 2                # runs given to a worker: it never waits for the next o
 
 
 class Engine:
-    interrupted = False
-
     def __init__(self, jobs: int, scheduler: str | None = None):
         self.jobs, self.scheduler = jobs, scheduler
         self.session = f"reed-{uuid.uuid4().hex[:12]}"
         self.accepted: list[str] = []     # addresses of workers
         self.refused: dict[str, str] = {}  # and why
         self.stopped = False
+        self.asked: list = []              # filled by a signal
 
     # ---- from start to end ----
 
     def __enter__(self):
         self.stack = ExitStack()
         with ExitStack() as stack:
-            for number in hil.stop_signals():
-                stack.callback(signal.signal, number, signal.signal(number, self.interrupt))
+            self.asked = stack.enter_context(hil.stop_requests())
             self.client = stack.enter_context(place.client(self.jobs, self.scheduler))
             from reed_tools.engine import canary  # it imports distributed
 
@@ -60,8 +57,9 @@ class Engine:
     def __exit__(self, *_):
         self.stack.close()
 
-    def interrupt(self, *_) -> None:
-        self.interrupted = True
+    @property
+    def interrupted(self) -> bool:
+        return bool(self.asked)
 
     def leave(self) -> None:
         """Runs that are left end; workers of a scheduler stay for others."""

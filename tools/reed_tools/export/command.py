@@ -22,7 +22,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--to", required=True, choices=(*TELEMETRY, *BUS), metavar="FORMAT",
                         help="telemetry as mcap, csv or parquet; the bus as asc, blf or mf4")
     parser.add_argument("--out", metavar="F", type=folders.argument, help="file to write; default telemetry.FORMAT or bus.FORMAT in RUN_DIR")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

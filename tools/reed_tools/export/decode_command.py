@@ -16,7 +16,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--count", type=int, metavar="N", help="end after N frames")
     parser.add_argument("--duration", type=float, metavar="S", help="end a live session after S seconds")
     parser.add_argument("--json", action="store_true", help="one JSON object per line; a number that is none is a string")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools.export.columns import Column, entry_names, flatten, table_of
-from reed_tools.record.telemetry_log import SINGLES, TABLES, Recording
+from reed_tools.record.telemetry_log import SINGLES, TABLES, Recording, name_of
 
 CYCLIC = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_TIMING", "REED_PLANT", "REED_BUS", "REED_LAW")
 EVENTS = ("REED_EVENT", "REED_PLANT_EVENT")
@@ -38,7 +38,7 @@ def cyclic_rows(recording: Recording, parameters: list[str]) -> tuple[np.ndarray
                 continue
             values = np.zeros(len(cycles), dtype=column.values.dtype)
             values[at] = column.values
-            name = f"{channel.removeprefix('REED_').lower()}.{column.name}"
+            name = name_of(channel, column.name)
             rows.append(Row(Column(name, column.kind, column.unit, column.comment, values), present))
     return cycles, rows
 

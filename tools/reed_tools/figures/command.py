@@ -5,6 +5,7 @@ from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import result_table
 from reed_tools.figures.evaluate import evaluate
 from reed_tools.record import run_folder
+
 EXAMPLE = """examples:
   tools/reed report out/RUN                            # figures, plots and page again
   tools/reed report out/RUN --json                     # the figures alone"""
@@ -13,7 +14,6 @@ EXAMPLE = """examples:
 def add_arguments(parser) -> None:
     parser.add_argument("run_dir", metavar="RUN_DIR", type=folders.argument, help="a folder that tools/reed run wrote, also one whose run was cut short")
     parser.add_argument("--json", action="store_true", help="print the content of summary.json and its folder, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -7,7 +7,7 @@ import numpy as np
 
 from reed_tools.record.message_layout import fields
 from reed_tools.record.signals import ACTIVE
-from reed_tools.record.telemetry_log import DIGEST_CHANNELS, TABLES, Recording
+from reed_tools.record.telemetry_log import DIGEST_CHANNELS, TABLES, Recording, name_of
 
 LAW = "of the law from outside"
 TIME = "t_s"  # says when, and is no figure
@@ -16,11 +16,6 @@ TIME = "t_s"  # says when, and is no figure
 def declared(channel: str) -> list:
     """Fields of a channel that are one physical number."""
     return [field for field in fields(TABLES[channel]) if field.kind == "double" and field.length is None and field.name != TIME]
-
-
-def name_of(channel: str, field: str) -> str:
-    """control.f_d, as in exported tables."""
-    return f"{channel.removeprefix('REED_').lower()}.{field}"
 
 
 def of_run(recording: Recording) -> dict[str, dict]:

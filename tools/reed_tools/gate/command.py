@@ -26,7 +26,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--only", default="", metavar="TEXT", help="tapes and scenarios with this in their names; coverage is not asserted")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), metavar="N", help="at the same time; default: one per core")
     parser.add_argument("--json", action="store_true", help="print {base, head, tapes, scenarios, changed: [{tape, signal, first_cycle, largest}], declared}")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -41,7 +40,8 @@ def run(arguments) -> int:
     scenarios = [entry for entry in corpus.scenarios(known.longest_s) if arguments.only in entry.name]
     if not tapes and not scenarios:
         raise UsageError(f"--only {arguments.only}: no tape and no scenario has this in its name; tapes: {', '.join(one.name for one in known.tapes)}")
-    programs = [versions_built.programs(commit, joints_of([*tapes, *scenarios], known)) for commit in (base, head)]
+    joints = joints_of([*tapes, *scenarios], known)
+    programs = [versions_built.programs(commit, joints) for commit in (base, head)]
     results = try_all(*programs, tapes, scenarios, arguments.jobs)
     lacking = [] if arguments.only else coverage_lacks(results, known.coverage)
     declared = commits.declared(base, head)

@@ -9,6 +9,7 @@ import numpy as np
 from reed_tools.errors import UsageError
 from reed_tools.paths import ARMS, ROOT, SCENARIOS
 from reed_tools.record.tape import Tape
+from reed_tools.robots.joint_frames import dof
 
 FILE = ROOT / "config" / "gate" / "corpus.toml"
 
@@ -27,7 +28,7 @@ class Entry:
             arm = self.arm or read_toml(SCENARIOS / f"{self.scenario}.toml" if "/" not in self.scenario else Path(self.scenario))["arm"]
             if isinstance(arm, str):
                 arm = read_toml(ARMS / f"{arm}.toml" if "/" not in arm else Path(arm))
-            return len(arm["dh"] if "dh" in arm else arm["joints"])
+            return dof(arm) or None
         except (OSError, KeyError, TypeError, ValueError):
             return None
 

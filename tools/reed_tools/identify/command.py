@@ -11,6 +11,7 @@ from reed_tools.identify import least_squares, samples, write
 from reed_tools.identify.base import Base, base_of
 from reed_tools.identify.feasible import nearest
 from reed_tools.identify.structural import Structural, structural
+from reed_tools.record.whole_file import require_new, write_text
 from reed_tools.robots import nominal
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.robots.pseudo_inertia import body_parts
@@ -35,7 +36,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="with --excite: another motion")
     parser.add_argument("--out", type=folders.argument, metavar="FILE.toml", help="with --excite: where to; default excite_ARM.toml")
     parser.add_argument("--json", action="store_true", help="print {parameters, condition, residual, validation, structural, bodies}")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -45,8 +45,8 @@ def run(arguments) -> int:
         raise UsageError("identify: a run folder or a candump file is needed, or --excite ARM")
     if not 1.0 <= arguments.cutoff <= 50.0:
         raise UsageError(f"--cutoff {arguments.cutoff:g}: allowed: 1 ... 50 Hz")
-    if arguments.write and arguments.write.exists():
-        raise UsageError(f"--write {arguments.write}: is there already; nothing was overwritten")
+    if arguments.write:
+        require_new("--write", arguments.write)
     for path in (*arguments.runs, *arguments.check):
         if not path.exists():
             raise UsageError(f"{path}: is no run folder and no candump file")
@@ -54,7 +54,7 @@ def run(arguments) -> int:
     base = base_of(arm)
     names = ", ".join(map(str, arguments.runs))
     stretches = [part for path in arguments.runs for part in read(path, arm)]
-    fit, _ = least_squares.solve(stretches, arm, base, arguments.cutoff, names)
+    fit = least_squares.solve(stretches, arm, base, arguments.cutoff, names)
     dof = arm.dof
     every, distance = nearest(base.B, fit.estimate, fit.information, arm.inertial, fit.estimate[-2 * dof:])
     estimate = fit.estimate if distance < 1e-4 else base.B @ every
@@ -67,7 +67,7 @@ def run(arguments) -> int:
     if arguments.write:
         source = str(nominal.path_of(arguments.arm)) if arguments.arm else f"the arm of {arguments.runs[0]}"
         text = Path(source).read_text(encoding="utf-8") if arguments.arm else write.arm_text_of_run(arguments.runs[0])
-        write.write(arguments.write, write.with_nominal(text, arm, found.p, found.coulomb, source))
+        write.write(arguments.write, write.with_nominal(text, found.p, found.coulomb, source))
     if arguments.json:
         print(json.dumps(result, allow_nan=False))
         return 0
@@ -139,9 +139,8 @@ def excite(arguments) -> int:
     target = arguments.out or Path(f"excite_{arm.name}.toml")
     if target.exists():
         raise UsageError(f"{target} is there already; nothing was overwritten, --out FILE.toml names another")
-    path = Path(arguments.excite)
-    text, motion = motions.scenario(arm, str(path.resolve()) if path.is_file() else arguments.excite, arguments.seed)
-    write.write_text(target, text)
+    text, motion = motions.scenario(arm, nominal.for_file(arguments.excite), arguments.seed)
+    write_text(target, text)
     if arguments.json:
         print(json.dumps({"file": str(target), "condition": motion.condition, "duration_s": float(motion.durations.sum())}))
     else:

@@ -65,12 +65,12 @@ def judged(arm: NominalArm, base: Base, poses: np.ndarray) -> Motion:
     durations = np.maximum((PEAK_SPEED * lengths / (SPEED * arm.speed_limit)).max(axis=1), SHORTEST_s)
     while True:
         q, qd, qdd = sampled(poses, durations)
-        torque = inverse_dynamics(arm.chain, q, qd, qdd) @ arm.inertial + arm.rotor_inertia * qdd
+        Y = inverse_dynamics(arm.chain, q, qd, qdd)
+        torque = Y @ arm.inertial + arm.rotor_inertia * qdd
         over = (np.abs(torque) > 1.2 * TORQUE * arm.torque_limit).any(axis=1).reshape(len(durations), PER_MOVE).any(axis=1)
         if not over.any() or (durations[over] > LONGEST_s).all():
             break
         durations[over & (durations <= LONGEST_s)] *= 1.2
-    Y = inverse_dynamics(arm.chain, q, qd, qdd)
     friction = [part[:, :, None] * np.eye(arm.dof) for part in (qd, np.sign(qd))]
     W = np.concatenate([Y, *friction], axis=2)[:, :, base.columns] / np.minimum(arm.torque_limit, 1e6)[:, None]
     return Motion(poses, np.ceil(20 * durations) / 20, condition_of(W.reshape(-1, W.shape[2])))

@@ -22,9 +22,6 @@ class Rows:
     Y: np.ndarray       # [n, dof, 12 dof]
     torque: np.ndarray  # N·m, without what the rotors take, [n, dof]
     used: np.ndarray    # which joints' friction is sure, [n, dof]
-    angle: np.ndarray   # rad, link side, [n, dof]: the states of the same instants, unfiltered
-    speed: np.ndarray
-    acceleration: np.ndarray
 
 
 def gauss(sigma: float) -> list[np.ndarray]:
@@ -50,11 +47,6 @@ def low_pass(cutoff: float) -> np.ndarray:
     return h / h.sum()
 
 
-def shortest_s(period_s: float, cutoff_hz: float) -> float:
-    """A stretch that is shorter gives no row."""
-    return 3.0 / cutoff_hz + 24 * max(0.1325 / (WIDTH * cutoff_hz), 1.5 * period_s)
-
-
 def rows_of(stretch: Stretch, arm: NominalArm, friction: np.ndarray, cutoff_hz: float) -> Rows | None:
     """None where the stretch is too short. friction: [2, dof], viscous and Coulomb as far as they are known, for the springs."""
     h = stretch.period_s
@@ -78,8 +70,7 @@ def rows_of(stretch: Stretch, arm: NominalArm, friction: np.ndarray, cutoff_hz: 
     step = max(1, int(0.5 / (cutoff_hz * h * every)))
     Y = np.concatenate([inverse_dynamics(arm.chain, q, qd, qdd), diagonal(motor_d), diagonal(direction(motor_d))], axis=2)
     thin = lambda x, by=filtered: np.tensordot(np.lib.stride_tricks.sliding_window_view(x, len(by), axis=0)[::step], by, axes=1)
-    middle = slice(len(filtered) // 2, len(q) - len(filtered) // 2, step)
-    return Rows(thin(Y), thin(torque), thin(resting, np.abs(filtered)) < LARGEST_REST, q[middle], qd[middle], qdd[middle])
+    return Rows(thin(Y), thin(torque), thin(resting, np.abs(filtered)) < LARGEST_REST)
 
 
 def direction(speed: np.ndarray) -> np.ndarray:

@@ -44,19 +44,21 @@ def read_rows(runs: list[Stretch], arm: NominalArm, friction: np.ndarray, cutoff
     return together(parts)
 
 
-def solve(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: float, where: str = "run") -> tuple[Fit, Rows]:
+def solve(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: float, where: str = "run") -> Fit:
     """With what the springs of joints and links leave unsure in the covariance."""
-    fit, rows = weighted_fit(runs, arm, base, cutoff_hz, where)
-    rigid, _ = weighted_fit(runs, dataclasses.replace(arm, stiffness=np.full(arm.dof, np.inf)), base, cutoff_hz, where)
+    fit = weighted_fit(runs, arm, base, cutoff_hz, where)
+    rigid = weighted_fit(runs, dataclasses.replace(arm, stiffness=np.full(arm.dof, np.inf)), base, cutoff_hz, where)
     unsure = (BENDING_UNSURE if arm.bends else JOINTS_UNSURE) * (rigid.estimate - fit.estimate)
-    return dataclasses.replace(fit, information=np.linalg.inv(np.linalg.inv(fit.information) + np.diag(unsure**2))), rows
+    return dataclasses.replace(fit, information=np.linalg.inv(np.linalg.inv(fit.information) + np.diag(unsure**2)))
 
 
-def weighted_fit(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: float, where: str) -> tuple[Fit, Rows]:
+def weighted_fit(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: float, where: str) -> Fit:
     friction = np.stack([arm.viscous @ arm.p, arm.coulomb])
     weight = np.ones(arm.dof)
-    for _ in range(ROUNDS):
-        rows = read_rows(runs, arm, friction, cutoff_hz, where)
+    bends = np.isfinite(arm.stiffness).any()
+    for number in range(ROUNDS):
+        if number == 0 or bends:  # friction enters the rows by what the springs carry
+            rows = read_rows(runs, arm, friction, cutoff_hz, where)
         W, z = weighted(rows, base, weight)
         condition = condition_of(W)
         if not condition < LARGEST_CONDITION or len(W) < LEAST_PER_COLUMN * W.shape[1]:
@@ -67,7 +69,7 @@ def weighted_fit(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: fl
         rest = residual(rows, base, estimate)
         weight = np.array([1 / np.sqrt(long_run_variance(rest[rows.used[:, joint], joint], len(z) / len(estimate))) for joint in range(arm.dof)])
         friction = np.maximum(estimate[-2 * arm.dof:].reshape(2, arm.dof), 0.0)
-    return Fit(estimate, W.T @ W, condition, percent(rows, base, estimate)), rows
+    return Fit(estimate, W.T @ W, condition, percent(rows, base, estimate))
 
 
 def weighted(rows: Rows, base: Base, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from reed_tools.errors import UsageError
-from reed_tools.record.whole_file import write_text
+from reed_tools.record.toml_text import replaced
+from reed_tools.record.whole_file import require_new, write_new
 from reed_tools.robots import nominal
-from reed_tools.robots.nominal import NominalArm
 
 
 def arm_text_of_run(folder: Path) -> str:
@@ -23,7 +23,7 @@ def arm_text_of_run(folder: Path) -> str:
     return "\n".join(lines).strip() + "\n"
 
 
-def with_nominal(text: str, arm: NominalArm, p: np.ndarray, coulomb: np.ndarray, where: str) -> str:
+def with_nominal(text: str, p: np.ndarray, coulomb: np.ndarray, where: str) -> str:
     if not re.search(r"^param_names\s*=", text, re.M):
         raise UsageError(f"--write: {where} names no parameters; write param_names, p_nom and param_shapes into it, which config/README.md describes")
     if re.search(r"^\[\[bodies\]\]", text, re.M) and "p_true" not in text:
@@ -33,21 +33,15 @@ def with_nominal(text: str, arm: NominalArm, p: np.ndarray, coulomb: np.ndarray,
 
 
 def with_line(text: str, key: str, values: np.ndarray) -> str:
-    """`key = [...]` with these values and the old comment, or a new line before the first table."""
-    line = f"{key} = [{', '.join(f'{value:.6g}' for value in values)}]"
-    old = re.compile(rf"^{key}\s*=\s*(?:\[[^\]]*\]|[^#\n]*?)([ \t]*#[^\n]*)?$", re.M)
-    if old.search(text):
-        return old.sub(lambda found: f"{line}{found[1] or ''}", text, count=1)
-    table = re.search(r"^\s*\[", text, re.M)
+    """`key = [...]` with these values and the old comment, or a new line, before the first table."""
+    value = f"[{', '.join(f'{value:.6g}' for value in values)}]"
+    table = re.search(r"^[ \t]*\[+[A-Za-z]", text, re.M)  # rows of numbers in brackets are none
     at = table.start() if table else len(text)
-    return f"{text[:at].rstrip()}\n{line}   # identified\n\n{text[at:].lstrip()}"
+    head = replaced(text[:at], key, value) or f"{text[:at].rstrip()}\n{key} = {value}   # identified\n\n"
+    return head + text[at:]
 
 
 def write(target: Path, text: str) -> None:
-    if target.exists():
-        raise UsageError(f"--write {target}: is there already; nothing was overwritten")
+    require_new("--write", target)
     nominal.of_table(nominal.parsed(text, str(target)), str(target))  # still an arm file
-    try:
-        write_text(target, text)
-    except OSError as error:
-        raise UsageError(f"--write {target}: {(error.strerror or str(error)).lower()}") from None
+    write_new("--write", target, text)

@@ -17,7 +17,6 @@ EXAMPLE = """examples:
 def add_arguments(parser) -> None:
     parser.add_argument("run_dir", nargs="?", metavar="RUN_DIR", type=folders.argument, help="a finished run; without it whatever runs is shown")
     parser.add_argument("--port", type=int, default=PORT, metavar="N", help="on 127.0.0.1; default %(default)s")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

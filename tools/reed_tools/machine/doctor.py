@@ -16,6 +16,10 @@ from reed_tools.run import bus_choice
 from reed_tools.show.tables import console, grid
 from reed_tools.text import plain
 
+EXAMPLE = """examples:
+  tools/reed doctor                                    # what is missing, with the command that adds it
+  tools/reed doctor --json                             # the same for a script"""
+
 MCL_CURRENT = 1
 PRIORITY = 81  # one above the loop's usual one
 ARPHRD_CAN = "280"
@@ -152,14 +156,10 @@ def diagnosed(finding) -> Finding:
         return finding()
     except (OSError, ValueError) as error:
         return Finding(finding.__name__.replace("_", " "), False, f"cannot be found out: {error}")
-EXAMPLE = """examples:
-  tools/reed doctor                                    # what is missing, with the command that adds it
-  tools/reed doctor --json                             # the same for a script"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("--json", action="store_true", help="print {system, findings: [{subject, good, detail, fix}], buses}")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

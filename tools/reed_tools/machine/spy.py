@@ -22,7 +22,6 @@ EXAMPLE = """examples:
 def add_arguments(parser) -> None:
     parser.add_argument("--url", metavar="URL", help="LCM URL; default LCM_DEFAULT_URL or udpm://239.255.76.67:7667")
     parser.add_argument("--jar-only", action="store_true", help="build the jar of message types, print its path, start nothing")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -12,7 +12,7 @@ from reed_tools.export.columns import suffixes
 from reed_tools.figures import metrics
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.message_layout import Field, fields
-from reed_tools.record.telemetry_log import TABLES, Recording
+from reed_tools.record.telemetry_log import TABLES, Recording, name_of
 from reed_tools.record.telemetry_log import load as load_log
 from reed_tools.text import did_you_mean
 
@@ -52,7 +52,7 @@ class Run:
     @cached_property
     def fields(self) -> dict[str, tuple[str, Field]]:
         """(channel, declaration) of every signal, by channel and field: "control.tau"."""
-        return {f"{channel.removeprefix('REED_').lower()}.{field.name}": (channel, field) for channel, kind in TABLES.items()
+        return {name_of(channel, field.name): (channel, field) for channel, kind in TABLES.items()
                 for field in fields(kind) if field.name not in NOT_DRAWN and self.recording.has(channel)}
 
     def names(self, containing: str = "") -> list[str]:

@@ -10,10 +10,8 @@ from typing import Any
 from reed_tools.errors import RunError, UsageError
 from reed_tools.figures import checks, summary
 from reed_tools.notebook.runs import cli_value
-from reed_tools.record import signals, telemetry_log
-from reed_tools.run import hil, plans, scenario
-
-STOPPED, REFUSED = 1, 2  # statuses of the programs: the arm ended in a fault; bad input
+from reed_tools.record import signals
+from reed_tools.run import hil, in_memory, scenario
 
 
 @dataclass(frozen=True)
@@ -39,16 +37,13 @@ def point(name: str, values: dict[str, Any], set: Mapping[str, Any]) -> Point:
     with tempfile.TemporaryDirectory(prefix="reed-sweep-") as scratch:
         folder = Path(scratch)
         effective = scenario.write_effective(name, None, entries, folder / "effective.toml")
-        plan = plans.make(effective, folder / "effective.toml", hil.MEMORY, "lockstep", folder, lcm=False, candump=False)
-        outcome = hil.run(plan, lambda mode, t_s: None)
-        said = hil.last_words(plan, plan.controller)
-        (status,) = outcome.statuses.values()
-        if outcome.interrupted:
+        ended = in_memory.run(effective, folder / "effective.toml", folder)
+        if ended.outcome.interrupted:
             raise KeyboardInterrupt
-        if status == REFUSED:
-            raise UsageError(f"{values}: {said}")
-        if status not in (0, STOPPED):
-            raise RunError(f"{values}: the program ended with {status}; {said}")
-        recording = telemetry_log.load(plan.log("firmware"), plan.log("plant"))
+        if ended.status == hil.REFUSED:
+            raise UsageError(f"{values}: {ended.said}")
+        if ended.died:
+            raise RunError(f"{values}: {ended.died}")
+        recording = ended.recording()
         found = checks.evaluate(effective["checks"], summary.run_data(effective, recording, signals.join(recording)))
         return Point(values, {check["name"]: check["value"] for check in found}, all(check["ok"] for check in found), recording.digest("lockstep"))

@@ -19,7 +19,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder of the page; default out/<time>-paper")
     engine_options.add_arguments(parser)
     parser.add_argument("--fresh", action="store_true", help="run everything again instead of keeping what ran before")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -8,6 +8,7 @@ from reed_tools.paper import captions, pictures
 from reed_tools.paper.phases import force_by_second, joint_by_second, phases, times
 from reed_tools.paper.runs import Result
 from reed_tools.record.whole_file import write_text
+from reed_tools.run import in_memory
 from reed_tools.show.html_parts import Markup, again, page as whole_page, table
 from reed_tools.show.tables import number
 
@@ -134,6 +135,6 @@ def write(folder: Path, results: list[Result]) -> Path:
                      f'<p class="note">{html.escape(captions.BOOKKEEPING[name.split()[0]])}</p></section>')
     path = folder / "paper.html"
     drawn = sorted(file.name for file in folder.glob("*.png"))
-    parts.append("<h2>The same page again</h2>" + again("tools/reed paper", drawn, versions.all_of_them()))
+    parts.append("<h2>The same page again</h2>" + again("tools/reed paper", drawn, versions.all_of_them(in_memory.programs())))
     write_text(path, whole_page("the paper's experiments", "\n".join(parts), f"<style>{EXTRA_STYLE}</style>"))
     return path

@@ -11,14 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from reed_tools import versions
-from reed_tools.engine import one_run
 from reed_tools.errors import RunError
 from reed_tools.paper.catalogue import Experiment
-from reed_tools.record import configuration, telemetry_log
+from reed_tools.record import configuration
 from reed_tools.record.signals import Signals, join
-from reed_tools.run import hil, plans, scenario
-from reed_tools.run.command import STOPPED, last_line, what_failed
+from reed_tools.record.whole_file import replacing
+from reed_tools.run import hil, in_memory, scenario
+from reed_tools.run.command import last_line, what_failed
 
 CONFIG = "effective.toml"
 
@@ -34,7 +33,7 @@ class Result:
 def prepare(experiments: list[Experiment], cache: Path) -> dict[str, Path]:
     """Folder of each experiment, named by what decides its outcome and what is kept of it; every configuration is checked before the first run."""
     cache.mkdir(parents=True, exist_ok=True)
-    kept, folders = (versions.build(plans.names(hil.MEMORY).values()) + " ".join(Signals.__dataclass_fields__)).encode(), {}
+    kept, folders = (in_memory.build() + " ".join(Signals.__dataclass_fields__)).encode(), {}
     for experiment in experiments:
         draft = cache / "draft.toml"
         scenario.write_effective(experiment.scenario, None, experiment.entries(), draft)
@@ -72,8 +71,8 @@ def text_of(folder: Path) -> str:
 
 def keep(folder: Path, content: bytes) -> None:
     """Whole or not at all: what is there counts as done."""
-    (folder / "part.npz").write_bytes(content)
-    (folder / "part.npz").replace(folder / "signals.npz")
+    with replacing(folder / "signals.npz") as file:
+        file.write(content)
 
 
 def run_one(job: tuple[str, str], interrupted: list) -> tuple[bytes, float] | None:
@@ -82,15 +81,15 @@ def run_one(job: tuple[str, str], interrupted: list) -> tuple[bytes, float] | No
     with tempfile.TemporaryDirectory(prefix="reed-paper-") as scratch:
         config = Path(scratch, CONFIG)
         config.write_text(text, encoding="utf-8")
-        plan, outcome = one_run.in_memory(configuration.load(config), config, Path(scratch), interrupted)
-        if outcome.interrupted:
+        ended = in_memory.run(configuration.load(config), config, Path(scratch), interrupted)
+        if ended.outcome.interrupted:
             return None
-        if complaint := what_failed(plan, outcome):
+        if complaint := what_failed(ended.plan, ended.outcome):
             raise RunError(f"{key}: {complaint}")
-        signals = join(telemetry_log.load(plan.log("firmware"), plan.log("plant")))
+        signals = join(ended.recording())
         if signals is None:
-            raise RunError(f"{key}: the arm never became active: {last_line(plan, plan.controller)}")
-        stopped = last_line(plan, plan.controller) if STOPPED in outcome.statuses.values() else ""
+            raise RunError(f"{key}: the arm never became active: {last_line(ended.plan, ended.plan.controller)}")
+        stopped = last_line(ended.plan, ended.plan.controller) if ended.status == hil.STOPPED else ""
     content = io.BytesIO()
     np.savez(content, stopped=stopped, **vars(signals))
     return content.getvalue(), time.monotonic() - started

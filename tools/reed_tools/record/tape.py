@@ -109,7 +109,7 @@ class Tape:
         crowded = np.flatnonzero(self["frames_omitted"])
         if len(crowded):
             return f"cycle {int(numbers[crowded[0]])} had more frames than its record holds"
-        if self.left and self.complete is False:
+        if self.left and not self.complete:
             return f"the tape is cut or damaged behind cycle {int(numbers[-1]) if len(numbers) else 'none'}: {self.left} bytes there are no whole record"
         if not self.complete:
             return f"the tape ends at cycle {int(numbers[-1]) if len(numbers) else 'none'} without its end: the program was killed, or its disk was full"
@@ -133,25 +133,25 @@ def find(place: Path) -> Path:
     raise UsageError(f"{place}: has no {NAME}, so there is nothing to replay; runs of tools/reed run have one since Reed 0.2: run it again")
 
 
-def read(path: Path, header_only: bool = False) -> Tape:
+def read(path: Path) -> Tape:
     with open(path, "rb") as file:
         if file.read(len(MARK)) != MARK:
             raise UsageError(f"{path}: is no tape; allowed: the {NAME} of a run folder")
-        kind, size, header = record(file, path)
+        kind, header = record(file, path)
         if kind != HEADER:
             raise UsageError(f"{path}: its header is damaged; nothing of it can be replayed")
         head = parse(header.decode(errors="replace"), path)
-        body = b"" if header_only else file.read()
+        body = file.read()
     return cycles(path, head, body)
 
 
-def record(file, path: Path) -> tuple[int, int, bytes]:
+def record(file, path: Path) -> tuple[int, bytes]:
     start = file.read(HEAD.size)
     kind, size = HEAD.unpack(start) if len(start) == HEAD.size else (0, 0)
     data, total = file.read(size) if size < 1 << 20 else b"", file.read(SUM.size)
     if len(data) != size or len(total) != SUM.size or SUM.unpack(total)[0] != zlib.crc32(data, zlib.crc32(start)):
         raise UsageError(f"{path}: its header is damaged; nothing of it can be replayed")
-    return kind, size, data
+    return kind, data
 
 
 def parse(text: str, path: Path) -> Header:

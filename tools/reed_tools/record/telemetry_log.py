@@ -23,6 +23,11 @@ LEAST_BYTES = 16     # of a message of ours: fingerprint and utime
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
 
+def name_of(channel: str, field: str) -> str:
+    """control.f_d, as in exported tables."""
+    return f"{channel.removeprefix('REED_').lower()}.{field}"
+
+
 @dataclass
 class Recording:
     """One run as arrays. tables[channel][field] has one row per recorded cycle, tables[channel]["cycle"] says which."""

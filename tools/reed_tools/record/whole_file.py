@@ -4,6 +4,8 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
+from reed_tools.errors import UsageError
+
 DRAFT = ".part"
 
 
@@ -32,6 +34,20 @@ def replacing(path: Path):
 def write_text(path: Path, text: str) -> None:
     with replacing(path) as file:
         file.write(text.encode(errors="backslashreplace"))  # a path need not be UTF-8
+
+
+def require_new(option: str, path: Path) -> None:
+    if path.exists():
+        raise UsageError(f"{option} {path}: is there already; nothing was overwritten")
+
+
+def write_new(option: str, path: Path, text: str) -> None:
+    """What an option asked for, never over an old file."""
+    require_new(option, path)
+    try:
+        write_text(path, text)
+    except OSError as error:
+        raise UsageError(f"{option} {path}: {(error.strerror or str(error)).lower()}") from None
 
 
 def sync_folder(folder: Path) -> None:

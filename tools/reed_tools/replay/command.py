@@ -15,7 +15,7 @@ from reed_tools.replay.player import Changes, replay
 from reed_tools.run import joints
 from reed_tools.text import plain
 
-PICTURES = OWN_FILES = ("commands.png", "estimates.png")
+OWN_FILES = ("commands.png", "estimates.png")
 CLOSED = "closed"
 EXAMPLE = """examples:
   tools/reed replay out/RUN                                     # the same to the bit, or the first difference
@@ -31,7 +31,6 @@ def add_arguments(parser) -> None:
     parser.add_argument("--closed", action="store_true", help="with the arm as well: run again from the same seed, and compared with the run")
     parser.add_argument("--out", metavar="DIR", type=folders.argument, help="folder for the plots of a what-if; default out/<time>-replay")
     parser.add_argument("--json", action="store_true", help="print {same, cycles, first: {cycle, signal, recorded, replayed}}")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -42,7 +41,7 @@ def run(arguments) -> int:
         raise UsageError(f"{arguments.run_dir}: --closed needs a run folder with its {run_folder.CONFIGURATION}")
     if not recorded.usable():
         raise UsageError(f"{recorded.path}: its first cycle is missing; nothing of it can be replayed")
-    joints.need(recorded.header.joints)
+    joints.need(recorded.header.joints, "reed_replay")
     with tempfile.TemporaryDirectory(prefix="reed-replay-") as scratch:
         replayed = replay(recorded, changes, Path(scratch))
         first = differences.first(recorded, replayed, recorded.usable())

@@ -26,8 +26,8 @@ class Changes:
 def law_of(tape: Tape, changes: Changes) -> law_choice.Law:
     """The one that is asked for, else the one that the run had from outside."""
     recorded = tape.header.values.get("law_library", "")
-    wanted = changes.law or recorded.removeprefix(f"{law_choice.PYTHON_LAW}:")
-    if not changes.law and wanted and not Path(wanted.partition(":")[0]).is_file():
+    wanted = changes.law or law_choice.in_words(recorded)
+    if not changes.law and wanted and not law_choice.file_of(wanted).is_file():
         raise UsageError(f"{tape.path}: the run's law {wanted} is not there any more; --law names where it is now")
     return law_choice.choose(wanted, "lockstep")  # nothing waits for a replay, so that Python is quick enough
 

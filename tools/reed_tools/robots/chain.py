@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reed_tools.robots.joint_frames import mounts, transform_of
+
 
 @dataclass(frozen=True)
 class Chain:
@@ -18,35 +20,11 @@ class Chain:
         return len(self.offset)
 
 
-def rotation_x(angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def rotation_rpy(rpy) -> np.ndarray:
-    """Rz(yaw) Ry(pitch) Rx(roll), as URDF has it."""
-    cp, sp, cy, sy = np.cos(rpy[1]), np.sin(rpy[1]), np.cos(rpy[2]), np.sin(rpy[2])
-    pitch = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-    yaw = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    return yaw @ pitch @ rotation_x(rpy[0])
-
-
-def transform_of(table: dict) -> tuple[np.ndarray, np.ndarray]:
-    return rotation_rpy(table.get("rpy_rad", [0.0, 0.0, 0.0])), np.array(table.get("xyz_m", [0.0, 0.0, 0.0]), dtype=float)
-
-
 def chain_of(arm: dict) -> Chain:
-    """From the [arm] table: `joint` tables, or Craig rows `dh` [alpha, a, d, offset], T = Rx(alpha) Tx(a) Rz(theta + offset) Tz(d)."""
-    if "joint" in arm:
-        steps = [transform_of(joint) for joint in arm["joint"]]
-    else:
-        steps = [(rotation_x(alpha) @ rotation_rpy([0.0, 0.0, sum(offset)]), np.array([a, -d * np.sin(alpha), d * np.cos(alpha)]))
-                 for alpha, a, d, *offset in arm["dh"]]
-    if "base" in arm:
-        R, p = transform_of(arm["base"])
-        steps[0] = (R @ steps[0][0], p + R @ steps[0][1])
+    """From the [arm] table; a shift along z behind a joint's turn is part of the joint's place, as a turn about z leaves it."""
+    found = mounts(arm)
     tool = transform_of(arm["tool"]) if "tool" in arm else (np.eye(3), np.array(arm.get("tool_offset", [0.0, 0.0, 0.0]), dtype=float))
-    return Chain(np.array([R for R, _ in steps]), np.array([p for _, p in steps]), *tool,
+    return Chain(np.array([mount.R for mount in found]), np.array([mount.p + mount.d * mount.R[:, 2] for mount in found]), *tool,
                  np.array(arm.get("gravity", [0.0, 0.0, -9.81]), dtype=float))
 
 

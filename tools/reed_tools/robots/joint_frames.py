@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reed_tools.robots.chain import rotation_rpy, transform_of
-
 
 @dataclass
 class Mount:
@@ -15,6 +13,23 @@ class Mount:
     p: np.ndarray  # m
     d: float       # m, from there along its z to the frame of the link that it moves: of a row
     frame: str     # name of that frame
+
+
+def rotation_x(angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def rotation_rpy(rpy) -> np.ndarray:
+    """Rz(yaw) Ry(pitch) Rx(roll), as URDF has it."""
+    cp, sp, cy, sy = np.cos(rpy[1]), np.sin(rpy[1]), np.cos(rpy[2]), np.sin(rpy[2])
+    pitch = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
+    yaw = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    return yaw @ pitch @ rotation_x(rpy[0])
+
+
+def transform_of(table: dict) -> tuple[np.ndarray, np.ndarray]:
+    return rotation_rpy(table.get("rpy_rad", [0.0, 0.0, 0.0])), np.array(table.get("xyz_m", [0.0, 0.0, 0.0]), dtype=float)
 
 
 def dof(arm: dict) -> int:

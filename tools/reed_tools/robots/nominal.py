@@ -49,8 +49,17 @@ def load(name_or_path: str) -> NominalArm:
     return of_table(read(path), str(path))
 
 
+def is_path(name_or_path: str) -> bool:
+    return "/" in name_or_path or name_or_path.endswith(".toml")
+
+
+def for_file(name_or_path: str) -> str:
+    """As a scenario names it, wherever that lies."""
+    return str(path_of(name_or_path).resolve()) if is_path(name_or_path) else name_or_path
+
+
 def path_of(name_or_path: str) -> Path:
-    path = Path(name_or_path) if "/" in name_or_path or name_or_path.endswith(".toml") else ARMS / f"{name_or_path}.toml"
+    path = Path(name_or_path) if is_path(name_or_path) else ARMS / f"{name_or_path}.toml"
     if not path.is_file():
         known = ", ".join(sorted(file.stem for file in ARMS.glob("*.toml")))
         raise UsageError(f"--arm {name_or_path}: no such arm; allowed: a path, or one of {known}")
@@ -80,7 +89,7 @@ def of_table(arm: dict, where: str) -> NominalArm:
     return NominalArm(arm.get("name", "arm"), chain, *per_joint.values(), known=known(arm, shapes, names, chain.dof), names=names, p=p,
                       p_lo=p_lo, p_hi=p_hi, shapes=shapes, viscous=viscous,
                       coulomb=per_joint_numbers(arm, "coulomb_nominal", chain.dof, 0.0), coulomb_declared=per_joint_numbers(arm, "coulomb_declared", chain.dof, 0.0),
-                      bends=bool(arm.get("sections") or arm.get("member")))
+                      bends=bool(arm.get("sections")))
 
 
 DEFAULTS = {"rotor_inertia_reflected": 0.0, "joint_stiffness": np.inf, "torque_limit": np.inf, "position_min": -2.9,

@@ -17,7 +17,6 @@ from reed_tools.record.whole_file import draft_of
 from reed_tools.run import bus_choice, hil, live_page, origin, plans, progress, scenario, vm
 from reed_tools.text import plain
 
-STOPPED, USAGE = 1, 2  # statuses of the firmware: the arm ended in a fault; bad input
 OWN_FILES = (*run_folder.FILES, "summary.json", "report.html", "trace.json", *(f"{name}.png" for name in report_page.CAPTIONS))
 EXAMPLE = """examples:
   tools/reed run                                       # the arm a5 presses 8 N on a wall
@@ -48,7 +47,6 @@ def add_arguments(parser) -> None:
                         help="also write trace.json, for ui.perfetto.dev: a span per phase, instants for what happened")
     parser.add_argument("--live", action="store_true", help="with a page that shows the run as it happens, on 127.0.0.1")
     parser.add_argument("--json", action="store_true", help="print the content of summary.json and its folder, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -115,7 +113,7 @@ def conclude(folder: Path, plan: hil.Plan, outcome: hil.Outcome, trace: bool = F
     if trace and not unmerged:
         trace_events.write(folder / "telemetry.lcmlog", folder / "trace.json")
     complaint = law_choice.in_words(what_failed(plan, outcome))
-    if complaint and USAGE in outcome.statuses.values():
+    if complaint and hil.REFUSED in outcome.statuses.values():
         if not load(*run_folder.logs(folder)).has("REED_MEASURED"):  # nothing ran: no trace of it
             clear(folder)
             if not any(folder.iterdir()):
@@ -149,7 +147,7 @@ def what_failed(plan: hil.Plan, outcome: hil.Outcome) -> str | None:
     if outcome.stopped_because:
         return f"stopped, because {outcome.stopped_because}; {names[controller]}: {last_line(plan, controller)}"
     for name, status in outcome.statuses.items():
-        if status and not (name == controller and status == STOPPED):
+        if status and not (name == controller and status == hil.STOPPED):
             how = f"was ended by signal {-status}" if status < 0 else f"ended with status {status}"
             return f"{names[name]} {how}: {last_line(plan, name)}"
     return None

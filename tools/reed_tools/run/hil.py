@@ -25,6 +25,7 @@ START_PATIENCE_S = 10.0  # until the plant hears the bus
 SILENCE_S = 30.0         # no recorded cycle for this long: something hangs
 PROGRESS_MARK = "@cycle "
 HALVES = {"firmware": "controller.toml", "plant": "plant.toml"}  # what each program may know, beside effective.toml
+STOPPED, REFUSED = 1, 2  # statuses of the programs: the arm ended in a fault; bad input
 MEMORY = "memory"        # the bus of controller and plant in one process
 
 

@@ -18,8 +18,8 @@ def built() -> set[int]:
     return {int(number) for number in found.group(1).split(";") if number} if found else set(POSSIBLE)
 
 
-def need(number: int) -> None:
-    """Builds the firmware for this number of joints where that is missing; an impossible number is the firmware's to refuse."""
+def need(number: int, target: str = "reed_firmware") -> None:
+    """Builds the program for this number of joints where that is missing; an impossible number is the firmware's to refuse."""
     if number not in POSSIBLE or number in built():
         return
     with open(ROOT / "build" / ".bootstrap.lock", "a") as lock:
@@ -32,5 +32,5 @@ def need(number: int) -> None:
         done = subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), f"-DREED_JOINTS={wanted}"], capture_output=True, text=True)
         if done.returncode:
             raise RunError(f"the controller for {number} joints could not be configured: {done.stderr.strip()[-300:]}")
-        build("reed_firmware")
+        build(target)
         print(f"{time.monotonic() - started:6.1f} s", flush=True)

@@ -22,22 +22,35 @@ def overrides(arguments) -> list[str]:
     return [*arguments.set, *(f"{key}={value}" for key, value in given.items() if value is not None)]
 
 
-def write_effective(scenario: str, arm: str | None, entries: list[str], target: Path, halves: bool = False) -> dict:
-    """Validates everything, writes `target` and, with `halves`, beside it what each program may know; returns it parsed."""
-    command = [str(program("reed_config")), "--config", scenario, "--write", str(target)]
-    for name in hil.HALVES.values() if halves else ():
-        command += [f"--write-{Path(name).stem}", str(target.with_name(name))]
-    if arm:
-        command += ["--arm", arm]
+def judged(scenario: str, entries: list[str], *options: str) -> str:
+    """What reed_config prints of a scenario with `entries` over it; raises UsageError with its line where it refuses that."""
+    command = [str(program("reed_config")), "--config", scenario, *options]
     for entry in entries:
         command += ["--set", entry]
     done = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
     message = done.stderr.strip() or done.stdout.strip()
-    if done.returncode == 2:
+    if done.returncode == hil.REFUSED:
         raise UsageError(message)
     if done.returncode != 0:
         raise RunError(f"reed_config ended with status {done.returncode}: {message}")
+    return done.stdout
+
+
+def checked(scenario: str, arm: str | None, entries: list[str], target: Path, halves: bool = False) -> dict:
+    """Validates everything, writes `target` and, with `halves`, beside it what each program may know; returns it parsed."""
+    written = ["--write", str(target)]
+    for name in hil.HALVES.values() if halves else ():
+        written += [f"--write-{Path(name).stem}", str(target.with_name(name))]
+    if arm:
+        written += ["--arm", arm]
+    judged(scenario, entries, *written)
     effective = configuration.load(target)
     checks.require_known(effective["checks"], where=scenario)
+    return effective
+
+
+def write_effective(scenario: str, arm: str | None, entries: list[str], target: Path, halves: bool = False) -> dict:
+    """For a run: checked, and with the controller built for that many joints."""
+    effective = checked(scenario, arm, entries, target, halves)
     joints.need(dof(effective["arm"]))
     return effective

@@ -1,10 +1,10 @@
 """tools/reed scenario new: a scenario for an arm, which runs at once."""
 
 import argparse
-from pathlib import Path
 
 from reed_tools import folders
 from reed_tools.errors import UsageError
+from reed_tools.record.whole_file import require_new, write_new
 
 LEAST_N, MOST_N = 0.5, 500.0
 EXAMPLE = """examples:
@@ -22,7 +22,7 @@ def add_arguments(parser) -> None:
     what.add_argument("--press", type=float, metavar="N", help="press with that force, in newton, on a floor that is 1 mm lower than believed")
     what.add_argument("--free", action="store_true", help="move in free space")
     made.add_argument("--out", required=True, metavar="F.toml", type=folders.argument, help="the scenario; nothing is overwritten")
-    made.epilog = parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
+    made.epilog = parser.epilog
 
 
 def run(arguments) -> int:
@@ -31,15 +31,10 @@ def run(arguments) -> int:
 
     if arguments.press is not None and not LEAST_N <= arguments.press <= MOST_N:
         raise UsageError(f"--press {arguments.press:g}: allowed: {LEAST_N:g} ... {MOST_N:g} N")
-    if arguments.out.exists():
-        raise UsageError(f"--out {arguments.out}: is there already; nothing was overwritten")
+    require_new("--out", arguments.out)
     arm = nominal.load(arguments.arm)
-    path = Path(arguments.arm)
-    arm_file = str(path.resolve()) if path.is_file() else arguments.arm
+    arm_file = nominal.for_file(arguments.arm)
     text = new.free(arm, arm_file) if arguments.free else new.press(arm, arm_file, arguments.press)
-    try:
-        arguments.out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"--out {arguments.out}: {(error.strerror or str(error)).lower()}") from None
+    write_new("--out", arguments.out, text)
     print(f"written {arguments.out}; run it with `tools/reed run {arguments.out}`")
     return 0

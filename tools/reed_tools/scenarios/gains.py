@@ -65,7 +65,7 @@ def refusal(text: str) -> str | None:
         path = Path(scratch, "scenario.toml")
         path.write_text(text, encoding="utf-8")
         try:
-            scenario.write_effective(str(path), None, [], Path(scratch, "effective.toml"))
+            scenario.checked(str(path), None, [], Path(scratch, "effective.toml"))
         except UsageError as error:
             return str(error).replace(str(path), "scenario")
     return None

@@ -13,6 +13,14 @@ STIFFNESS_Npm = 10000.0
 PRESS_SLIDE, FREE_SLIDE = 0.025, 0.05  # amplitude as a share of the reach, above 2 cm nothing is gained by more when pressing
 LARGEST_SLIDE_m = 0.02
 FORCE_LIMIT = (60.0, 2.5)      # N, and times the desired force: contact force that trips
+LOOP_CHECKS = """[[checks]]
+name = "faults"
+limit = 0
+[[checks]]
+name = "heap_allocations"
+limit = 0
+"""
+
 
 
 def press(arm: NominalArm, arm_file: str, force_N: float) -> str:
@@ -71,13 +79,7 @@ limit = 1.0
 [[checks]]
 name = "force_rms_percent_last_second"
 limit = 3.0
-[[checks]]
-name = "faults"
-limit = 0
-[[checks]]
-name = "heap_allocations"
-limit = 0
-"""
+{LOOP_CHECKS}"""
 
     return gains.accepted(gains.by_rule(arm, pose.q), text)
 
@@ -107,13 +109,7 @@ frequency_hz = {FREQUENCY_HZ}
 [[checks]]
 name = "joint_rms_mrad_last_second"   # static deflection compensation included
 limit = 4.0
-[[checks]]
-name = "faults"
-limit = 0
-[[checks]]
-name = "heap_allocations"
-limit = 0
-"""
+{LOOP_CHECKS}"""
 
     return gains.accepted(gains.by_rule(arm, pose.q), text)
 

@@ -11,6 +11,7 @@ from reed_tools.errors import UsageError
 from reed_tools.paths import BUILD, ROOT
 from reed_tools.testing.skips import complaints
 from reed_tools.testing.stages import Stage, all_stages
+
 EXAMPLE = """examples:
   tools/reed test                                      # everything
   tools/reed test test_live force                      # tests whose name contains one of these"""
@@ -21,7 +22,6 @@ def add_arguments(parser) -> None:
                                                           "(tools/reed_tools/testing/skips.py)")
     parser.add_argument("filters", nargs="*", metavar="FILTER",
                         help="only tests whose name contains one of these, or a stage: layout, tidy, asan, tsan")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:

@@ -1,15 +1,18 @@
 """tools/reed tune: gains of a scenario, better ones within the rules, with what each step brought."""
 
+import functools
 import json
 import tempfile
 import tomllib
 from pathlib import Path
 
-from reed_tools import folders, streams, versions
+from reed_tools import folders, streams
 from reed_tools.engine import options
+from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paths import ARMS, SCENARIOS
-from reed_tools.run import hil, plans, scenario
+from reed_tools.record.whole_file import require_new, write_new
+from reed_tools.run import in_memory, scenario
 from reed_tools.tune import margins, search, trials, write
 from reed_tools.tune.gains import Gains, of_effective, text
 
@@ -29,15 +32,14 @@ def add_arguments(parser) -> None:
     parser.add_argument("--out", type=folders.argument, metavar="F.toml", help="write the scenario with the gains that were found")
     parser.add_argument("--json", action="store_true", help="print the result as JSON, the rest on standard error")
     options.add_arguments(parser)
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
     options.check(arguments)
     if not 1 <= arguments.draws <= MOST_DRAWS:
         raise UsageError(f"--draws {arguments.draws}: allowed: a whole number from 1 to {MOST_DRAWS}")
-    if arguments.out and arguments.out.exists():
-        raise UsageError(f"--out {arguments.out}: is there already; nothing was overwritten")
+    if arguments.out:
+        require_new("--out", arguments.out)
     with streams.result_alone(arguments.json), tempfile.TemporaryDirectory(prefix="reed-tune-") as scratch:
         source = source_of(arguments.scenario, Path(scratch))
         first, best, steps = tuned(arguments, source, Path(scratch))
@@ -83,10 +85,8 @@ def tuned(arguments, source: Path, scratch: Path) -> tuple[search.Step, search.S
     effective = scenario.write_effective(str(source), None, arguments.set, scratch / "effective.toml")
     start = of_effective(effective)
     draws = trials.draws(effective, arguments.draws)
-    function = trials.function(str(source), versions.build(plans.names(hil.MEMORY).values()))
+    function = functools.partial(trials.run, str(source), in_memory.build())
     steps: list[search.Step] = []
-    from reed_tools.engine.engine import Engine   # it imports distributed
-
     with Engine(options.jobs(arguments), arguments.scheduler) as engine:
         def margin_of(gains: Gains) -> margins.Margin:
             return margins.of(str(source), [*arguments.set, *gains.entries()])
@@ -127,5 +127,5 @@ def show(first: search.Step, best: search.Step, arguments, source: Path) -> None
         table.add_row(key, text(before), text(after))
     console().print(table)
     if arguments.out:
-        write.write(arguments.out, write.with_gains(source.read_text(encoding="utf-8"), best.gains))
+        write_new("--out", arguments.out, write.with_gains(source.read_text(encoding="utf-8"), best.gains))
         print(f"written {arguments.out}: tools/reed run {arguments.out}")

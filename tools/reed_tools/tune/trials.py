@@ -1,6 +1,5 @@
 """How good gains are: the scenario's checks over a few draws that differ in what a controller cannot know."""
 
-import functools
 import math
 from dataclasses import dataclass
 
@@ -46,10 +45,6 @@ def run(scenario: str, build: str, item: Item, interrupted: list):
     """In a worker. The campaign has no file: its records are not kept."""
     campaign = Campaign("tune", "", scenario, 1, 0, {}, [RIPPLE], item.fixed, (), "")
     return one_draw.run_entries(campaign, build, item.draw, [*item.fixed, *item.drawn], interrupted)
-
-
-def function(scenario: str, build: str):
-    return functools.partial(run, scenario, build)
 
 
 def judge(records: list) -> Trial:

@@ -5,13 +5,13 @@ import json
 import math
 from pathlib import Path
 
-from reed_tools import folders, streams, versions
+from reed_tools import folders, streams
 from reed_tools.campaign import definition, one_draw
 from reed_tools.campaign.definition import MOST_DRAWS, Campaign
 from reed_tools.engine import options as engine_options
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
-from reed_tools.run import hil, plans
+from reed_tools.run import in_memory
 from reed_tools.worst import cases, judged
 from reed_tools.worst.search import Case, Found, search
 from reed_tools.worst.shrink import shrink
@@ -35,7 +35,6 @@ def add_arguments(parser) -> None:
     kept.add_argument("--cases", type=folders.argument, default=cases.FILE, metavar="FILE", help="where the case is added; default tests/data/worst_cases.jsonl")
     kept.add_argument("--no-keep", action="store_true", help="add the case to no file")
     parser.add_argument("--json", action="store_true", help="print the content of worst.json, the rest on standard error")
-    parser.epilog = f"{EXAMPLE}\n\n{parser.epilog}"
 
 
 def run(arguments) -> int:
@@ -73,7 +72,7 @@ def look(arguments, campaign: Campaign, space: Space, folder: Path) -> tuple[int
             raise KeyboardInterrupt
     result = summary(campaign, space, found, worst, shrunk, evaluate.done)
     (folder / FILE).write_text(json.dumps(result, indent=2, allow_nan=False) + "\n")
-    show(campaign, space, worst, shrunk, result)
+    show(space, worst, shrunk, result)
     if not arguments.no_keep:
         case = {"campaign": campaign.name, "scenario": campaign.scenario, "entries": shrunk.result.record.overrides,
                 "figure": shrunk.result.aim, "ratio": finite(shrunk.ratio)}
@@ -87,7 +86,7 @@ class Evaluation:
 
     def __init__(self, engine: Engine, campaign: Campaign, space: Space):
         self.engine, self.space, self.done, self.largest = engine, space, 0, -math.inf
-        self.one = functools.partial(judged.run, campaign, versions.build(plans.names(hil.MEMORY).values()))
+        self.one = functools.partial(judged.run, campaign, in_memory.build())
 
     def __call__(self, points: list[Point]) -> list[Case]:
         items = [(number, self.space.entries(point)) for number, point in enumerate(points)]
@@ -122,7 +121,7 @@ def needed(space: Space, case: Case) -> list[str]:
     return [axis.name for axis, u in zip(space.axes, case.point) if u is not None]
 
 
-def show(campaign: Campaign, space: Space, worst: Case, shrunk: Case, result: dict) -> None:
+def show(space: Space, worst: Case, shrunk: Case, result: dict) -> None:
     print(f"worst   {worst.ratio:.4g} times its limit: {worst.result.text()}; digest {result['digest'][:16]}\n  {result['command']}")
     print(f"reduced to {', '.join(needed(space, shrunk)) or 'nothing that was drawn'}: {shrunk.ratio:.4g} times its limit: {shrunk.result.text()}; "
           f"digest {result['shrunk']['digest'][:16]}\n  {result['shrunk']['command']}")
