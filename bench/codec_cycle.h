@@ -21,7 +21,7 @@ class CodecCycle {
   }
 
  private:
-  bus::Encoder controller_, plant_;
+  bus::FrameEncoder controller_, plant_;
   bus::Decoder decoder_;
 };
 

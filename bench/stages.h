@@ -76,7 +76,7 @@ class Stages {
                                          true,
                                          nullptr};
     Keep(law_.known(input, adaptive_));
-    law_.learn_known(input, adaptive_);
+    law_.adapt_known(input, adaptive_);
   }
 
   /// (47), with the momentum it compares.

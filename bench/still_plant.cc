@@ -27,7 +27,7 @@ class StillBody final : public ArmBody {
   const Truth& truth() const override { return truth_; }
   const ArmShape& Shape() override { return shape_; }
   bool healthy() const override { return true; }
-  std::string ailment() const override { return {}; }
+  std::string fault_description() const override { return {}; }
 
  private:
   Truth truth_;

@@ -15,7 +15,7 @@ constexpr std::size_t kFrames = 8;
 constexpr int kBursts = 40;
 
 std::array<bus::Frame, kFrames> FramesOfACycle() {
-  bus::Encoder encoder;
+  bus::FrameEncoder encoder;
   std::array<bus::Frame, kFrames> frames{encoder.Sync({})};
   for (int i = 0; i < 5; ++i) frames[static_cast<std::size_t>(i) + 1] = encoder.JointState(i, {});
   frames[6] = encoder.Wrench({});

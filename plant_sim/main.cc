@@ -36,7 +36,7 @@ namespace {
 constexpr std::int64_t kStopCheck_ns = 60'000'000;
 
 std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const PlantConfig& config,
-                                       bus::Transport& transport, ArmBody& body, Recorder& recorder,
+                                       bus::Transport& transport, ArmBody& body, RecordSink& recorder,
                                        const rt::HostPauseWatch& watch) {
   if (options.clock == rt::ClockKind::kLockstep) {
     return std::make_unique<LockstepEndpoint>(config, transport, body, recorder);

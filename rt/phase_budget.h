@@ -32,7 +32,7 @@ struct PhaseLimits {
   int max_in_row = 20;  // kFault: more cycles in a row with a broken limit stop the arm
 };
 
-struct PhaseVerdict {
+struct PhaseCheck {
   bool broken = false;            // some phase of this cycle was too long
   Phase phase = Phase::kReceive;  // the first that was
   bool first = false;             // the cycle before was within its limits: worth an event
@@ -46,27 +46,27 @@ class PhaseMonitor {
   explicit PhaseMonitor(const PhaseLimits& limits) noexcept : limits_(limits) {}
 
   /// Once per cycle, with its own times.
-  PhaseVerdict Check(const PhaseTimes& times) noexcept {
+  PhaseCheck Check(const PhaseTimes& times) noexcept {
     history_[0] = history_[1];
     history_[1] = history_[2];
     history_[2] = times;
-    PhaseVerdict verdict;
+    PhaseCheck check;
     for (std::size_t i = kPhases; i-- > 0;) {
       if (times[i] <= limits_.budget_ns[i]) continue;
       ++broken_[i];
-      verdict.broken = true;
-      verdict.phase = static_cast<Phase>(i);
+      check.broken = true;
+      check.phase = static_cast<Phase>(i);
     }
-    if (!verdict.broken) {
+    if (!check.broken) {
       in_row_ = 0;
-      return verdict;
+      return check;
     }
-    verdict.first = in_row_ == 0;
+    check.first = in_row_ == 0;
     if (in_row_ <= limits_.max_in_row) ++in_row_;
-    verdict.hold_next = limits_.action == PhaseAction::kHold;
-    verdict.degrade_next = limits_.action == PhaseAction::kDegrade;
-    verdict.fault = limits_.action == PhaseAction::kFault && in_row_ > limits_.max_in_row;
-    return verdict;
+    check.hold_next = limits_.action == PhaseAction::kHold;
+    check.degrade_next = limits_.action == PhaseAction::kDegrade;
+    check.fault = limits_.action == PhaseAction::kFault && in_row_ > limits_.max_in_row;
+    return check;
   }
 
   const PhaseHistory& history() const noexcept { return history_; }

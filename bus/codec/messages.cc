@@ -138,14 +138,14 @@ void Read(const Frame& frame, const FrameLayout& layout, E2eReceiver& receiver, 
 
 }  // namespace
 
-Frame Encoder::Sync(const SyncMessage& message) noexcept {
+Frame FrameEncoder::Sync(const SyncMessage& message) noexcept {
   reed_sync_t out{};
   out.layout = message.layout;
   out.cycle = message.cycle;
   return Build(out, reed_sync_pack, layout::kSync, sync_);
 }
 
-Frame Encoder::JointState(int joint, const JointStateMessage& message) noexcept {
+Frame FrameEncoder::JointState(int joint, const JointStateMessage& message) noexcept {
   const auto j = static_cast<std::size_t>(joint);
   reed_joint_state_1_t out{};
   out.drive_state = static_cast<std::uint8_t>(message.state);
@@ -158,7 +158,7 @@ Frame Encoder::JointState(int joint, const JointStateMessage& message) noexcept 
   return Build(out, reed_joint_state_1_pack, layout::kJointState[j], joint_[j]);
 }
 
-Frame Encoder::Wrench(const WrenchMessage& message) noexcept {
+Frame FrameEncoder::Wrench(const WrenchMessage& message) noexcept {
   const auto& f = message.force_N;
   const auto& m = message.moment_Nm;
   reed_wrench_t out{};
@@ -173,7 +173,7 @@ Frame Encoder::Wrench(const WrenchMessage& message) noexcept {
   return Build(out, reed_wrench_pack, layout::kWrench, wrench_);
 }
 
-Frame Encoder::Command(const CommandMessage& message) noexcept {
+Frame FrameEncoder::Command(const CommandMessage& message) noexcept {
   std::array<double, kMaxJoints> tau{};
   for (std::size_t j = 0; j < kMaxJoints; ++j) {
     tau[j] = NanToZero(Fit(message.torque_Nm[j], layout::kCommandTorque[j], counters_));

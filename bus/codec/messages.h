@@ -57,7 +57,7 @@ struct EncodeCounters {
 };
 
 /// Builds protected frames; keeps one E2E counter per frame identifier.
-class Encoder {
+class FrameEncoder {
  public:
   Frame Sync(const SyncMessage& message) noexcept;
   Frame JointState(int joint, const JointStateMessage& message) noexcept;  // joint 0-based

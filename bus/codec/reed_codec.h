@@ -16,7 +16,7 @@ class ReedControllerCodec final : public ControllerCodec {
   const DecodeCounters& counters() const noexcept override { return decoder_.counters(); }
 
  private:
-  Encoder encoder_;
+  FrameEncoder encoder_;
   Decoder decoder_;
   Frame sent_;
   int cut_ = -1;
@@ -31,7 +31,7 @@ class ReedArmCodec final : public ArmCodec {
                                 const WrenchMessage* wrench) noexcept override;
 
  private:
-  Encoder encoder_;
+  FrameEncoder encoder_;
   Decoder decoder_;
   Decoded read_;
   std::array<Frame, kMostFramesAtOnce> sent_;

@@ -68,7 +68,7 @@ class Wire {
   }
 
  private:
-  bus::Encoder drives_, controller_;
+  bus::FrameEncoder drives_, controller_;
   bus::Decoder from_drives_, at_drive_;
 };
 

@@ -39,8 +39,8 @@ class Controller {
   /// One period: estimate, decide, control, protect.
   const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
     events_.Clear();
-    verdict_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
-                                 ContactForce(measured));              // estimate
+    check_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
+                               ContactForce(measured));                // estimate
     Decide(measured, state);                                           // decide
     const strategy::Decision<N>& decision = Control(measured, state);  // control
     command_.torque = Protect(decision, measured);                     // protect: the last gate
@@ -63,7 +63,7 @@ class Controller {
   const Command<N>& command() const noexcept { return command_; }
   const EventList& events() const noexcept { return events_; }
   mode::Mode mode() const noexcept { return supervisor_.mode(); }
-  std::int32_t limits() const noexcept { return verdict_.limits; }  // bit set of those that act
+  std::int32_t limits() const noexcept { return check_.limits; }  // bit set of those that act
   double time_s() const noexcept {
     return active() ? T_ * static_cast<double>(supervisor_.cycles_in_mode()) : 0.0;
   }  // active since
@@ -88,7 +88,7 @@ class Controller {
     // commands and brake, which looks like a fault.
     const bool over = active() ? time_s() >= settings_.duration_s : was_active_;
     seen.stop = state.stop_wanted || over;
-    seen.trip = verdict_.trip != protect::Reason::kNone;
+    seen.trip = check_.trip != protect::Reason::kNone;
     const mode::Event event = supervisor_.Step(seen);
     if (event != mode::Event::kNone) Note(protect::Reason::kModeChange, -1, static_cast<double>(event));
     if (seen.trip && event == mode::Event::kTrip) NoteTrip();
@@ -106,20 +106,20 @@ class Controller {
 
   model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
     if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
-    const bool no_trip = verdict_.trip == protect::Reason::kNone;
-    model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), verdict_);
+    const bool no_trip = check_.trip == protect::Reason::kNone;
+    model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), check_);
     if (no_trip && active() && decision.force.lost) {
-      verdict_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), verdict_.limits};
+      check_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), check_.limits};
       tau = limits_.Release();
     }
-    if (no_trip && verdict_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
+    if (no_trip && check_.trip != protect::Reason::kNone) {  // found by the law or the gate itself
       mode::Observation seen;
       seen.trip = true;
       Note(protect::Reason::kModeChange, -1, static_cast<double>(supervisor_.Step(seen)));
       NoteTrip();
     }
-    if (decision.force.speed_limited) verdict_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
-    if (decision.force.held) verdict_.limits |= protect::LimitBit(protect::Reason::kStretch);
+    if (decision.force.speed_limited) check_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
+    if (decision.force.held) check_.limits |= protect::LimitBit(protect::Reason::kStretch);
     return tau;
   }
 
@@ -142,9 +142,9 @@ class Controller {
   }
 
   void NoteTrip() noexcept {
-    trip_ = verdict_.trip;
-    trip_place_ = {verdict_.joint, verdict_.value};
-    Note(verdict_.trip, verdict_.joint, verdict_.value);
+    trip_ = check_.trip;
+    trip_place_ = {check_.joint, check_.value};
+    Note(check_.trip, check_.joint, check_.value);
   }
   void Note(protect::Reason code, int joint, double value) noexcept {
     events_.Add({code, joint, value, supervisor_.mode(), source_});
@@ -160,7 +160,7 @@ class Controller {
   protect::Watch<N> watch_;
   double T_;
   const strategy::Decision<N>* decision_ = nullptr;
-  protect::Verdict verdict_;
+  protect::LimitCheck check_;
   Command<N> command_;
   EventList events_;
   strategy::ForceSource source_ = strategy::ForceSource::kNone;

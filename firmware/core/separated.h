@@ -74,7 +74,7 @@ class Separated {
                             t_s,    d.desired, d.f,   measured, d.source,   active && full, external_};
     const bool known = d.source == ForceSource::kKnown || d.source == ForceSource::kObserver;
     d.tau_law = known ? law_.known(in, adaptive_) : law_.unknown(in, adaptive_);
-    if (in.adapts) known ? law_.learn_known(in, adaptive_) : law_.learn_unknown(in, adaptive_);
+    if (in.adapts) known ? law_.adapt_known(in, adaptive_) : law_.adapt_unknown(in, adaptive_);
     d.collision = active && !d.force.active ? collision_.Step(disturbance_.r()) : Collision{};
     return d;
   }

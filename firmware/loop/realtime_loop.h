@@ -48,16 +48,16 @@ class RealtimeLoop {
 
  private:
   void WatchPhases() noexcept {
-    const rt::PhaseVerdict verdict = phases_.Check(stepper_.phase_times());
+    const rt::PhaseCheck check = phases_.Check(stepper_.phase_times());
     telemetry::Timing& timing = stepper_.snapshot().timing;
     timing.rx_over = phases_.broken(rt::Phase::kReceive);
     timing.compute_over = phases_.broken(rt::Phase::kCompute);
     timing.tx_over = phases_.broken(rt::Phase::kTransmit);
-    if (verdict.first)
-      stepper_.NoteTime(protect::Reason::kPhaseBudget, static_cast<double>(verdict.phase), phases_.history());
-    state_.hold = verdict.hold_next;
-    state_.degrade = verdict.degrade_next;
-    state_.phase_budget_exceeded = verdict.fault;
+    if (check.first)
+      stepper_.NoteTime(protect::Reason::kPhaseBudget, static_cast<double>(check.phase), phases_.history());
+    state_.hold = check.hold_next;
+    state_.degrade = check.degrade_next;
+    state_.phase_budget_exceeded = check.fault;
     state_.broken_in_row = phases_.in_row();
   }
 

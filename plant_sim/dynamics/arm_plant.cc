@@ -119,7 +119,7 @@ class ArmPlant::Impl {
   bool healthy() const { return sick_coordinate_ < 0; }
   int num_coordinates() const { return equations_.size(); }
 
-  std::string ailment() const {
+  std::string fault_description() const {
     if (healthy()) return "";
     const int n = chain_.dof(), elastic = sick_coordinate_ - 2 * n;
     std::ostringstream text;
@@ -202,7 +202,7 @@ void ArmPlant::StartSchedule() { impl_->StartSchedule(); }
 const Truth& ArmPlant::truth() const { return impl_->truth(); }
 const ArmShape& ArmPlant::Shape() { return impl_->Shape(); }
 bool ArmPlant::healthy() const { return impl_->healthy(); }
-std::string ArmPlant::ailment() const { return impl_->ailment(); }
+std::string ArmPlant::fault_description() const { return impl_->fault_description(); }
 int ArmPlant::num_coordinates() const { return impl_->num_coordinates(); }
 
 }  // namespace reed::plant

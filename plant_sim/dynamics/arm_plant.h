@@ -62,7 +62,7 @@ class ArmPlant {
   const ArmShape& Shape();
   /// False once a state is not finite or absurd; the caller brakes, says which state and when, and exits 3.
   bool healthy() const;
-  std::string ailment() const;  // names the state and the time, "" while healthy
+  std::string fault_description() const;  // names the state and the time, "" while healthy
   int num_coordinates() const;
 
  private:

@@ -19,7 +19,7 @@ class ArmBody {
   virtual const Truth& truth() const = 0;
   virtual const ArmShape& Shape() = 0;
   virtual bool healthy() const = 0;
-  virtual std::string ailment() const = 0;
+  virtual std::string fault_description() const = 0;
 };
 
 }  // namespace reed::plant

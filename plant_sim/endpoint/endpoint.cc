@@ -13,7 +13,7 @@ constexpr double kShapes_hz = 60.0;  // what an eye can follow
 
 }  // namespace
 
-Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, RecordSink& recorder,
                    std::unique_ptr<bus::ArmCodec> codec)
     : period_s_(1.0 / config.timing.rate_hz),
       shape_every_cycles_(
@@ -71,7 +71,7 @@ void Endpoint::Sample(std::uint32_t cycle, const HostPauses& host) {
 
 void Endpoint::CheckHealth() {
   if (robot_.healthy() || outcome_ != Outcome::kRunning) return;
-  Fail(Outcome::kDiverged, "the simulated arm diverged: " + body_.ailment() + "; brakes closed");
+  Fail(Outcome::kDiverged, "the simulated arm diverged: " + body_.fault_description() + "; brakes closed");
   journal_.Note(PlantEvent::kDiverged, robot_.drives().state(), robot_.time_s(), "%s", failure_.c_str());
 }
 

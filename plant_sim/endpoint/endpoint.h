@@ -16,7 +16,7 @@ class Endpoint {
  public:
   /// `transport`, `body` and `recorder` outlive the endpoint.
   /// codec: of the drives; nullptr: of bus/reed.dbc.
-  Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+  Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, RecordSink& recorder,
            std::unique_ptr<bus::ArmCodec> codec = nullptr);
   virtual ~Endpoint() = default;
 

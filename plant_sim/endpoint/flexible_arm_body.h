@@ -18,7 +18,7 @@ class FlexibleArmBody final : public ArmBody {
   const Truth& truth() const override { return plant_.truth(); }
   const ArmShape& Shape() override { return plant_.Shape(); }
   bool healthy() const override { return plant_.healthy(); }
-  std::string ailment() const override { return plant_.ailment(); }
+  std::string fault_description() const override { return plant_.fault_description(); }
 
  private:
   ArmPlant plant_;

@@ -11,7 +11,7 @@ namespace reed::plant {
 
 class Journal {
  public:
-  explicit Journal(Recorder& recorder) : recorder_(recorder) {}
+  explicit Journal(RecordSink& recorder) : recorder_(recorder) {}
 
   /// The stamp of everything noted from here on.
   void Stamp(std::int64_t cycle, std::int64_t utime) noexcept {
@@ -32,7 +32,7 @@ class Journal {
   }
 
  private:
-  Recorder& recorder_;
+  RecordSink& recorder_;
   std::int64_t cycle_ = 0;
   std::int64_t utime_ = 0;
 };

@@ -13,7 +13,7 @@ constexpr std::uint32_t kMaxGapCycles = 1000;
 }  // namespace
 
 LockstepEndpoint::LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
-                                   Recorder& recorder, std::unique_ptr<bus::ArmCodec> codec)
+                                   RecordSink& recorder, std::unique_ptr<bus::ArmCodec> codec)
     : Endpoint(config, transport, body, recorder, std::move(codec)), rate_hz_(config.timing.rate_hz) {}
 
 void LockstepEndpoint::Handle(std::span<const Incoming> incoming) {

@@ -15,7 +15,7 @@ namespace reed::plant {
 
 class LockstepEndpoint final : public Endpoint {
  public:
-  LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+  LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, RecordSink& recorder,
                    std::unique_ptr<bus::ArmCodec> codec = nullptr);
 
  private:

@@ -14,7 +14,7 @@ EndpointClock EndpointClock::System() {
 }
 
 RealtimeEndpoint::RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
-                                   Recorder& recorder, EndpointClock clock,
+                                   RecordSink& recorder, EndpointClock clock,
                                    std::unique_ptr<bus::ArmCodec> codec)
     : Endpoint(config, transport, body, recorder, std::move(codec)),
       clock_(std::move(clock)),

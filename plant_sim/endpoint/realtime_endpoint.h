@@ -23,7 +23,7 @@ struct EndpointClock {
 
 class RealtimeEndpoint final : public Endpoint {
  public:
-  RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, Recorder& recorder,
+  RealtimeEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, RecordSink& recorder,
                    EndpointClock clock = EndpointClock::System(),
                    std::unique_ptr<bus::ArmCodec> codec = nullptr);
 

@@ -68,7 +68,7 @@ class Robot {
   DriveChain drives_;
   TorqueExcitation excitation_;
   Eigen::VectorXd excited_Nm_;  // what the arm gets while there is an excitation
-  Encoder encoder_;
+  JointEncoder encoder_;
   std::vector<VelocityFilter> speeds_;
   WrenchSensor wrench_;
   double time_s_ = 0.0;

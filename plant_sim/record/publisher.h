@@ -29,7 +29,7 @@ struct PublisherConfig {
 
 /// Put is called by one thread. The constructor throws std::runtime_error when the log cannot be created; a
 /// network that cannot be opened costs one line on standard error and nothing else.
-class Publisher final : public Recorder {
+class Publisher final : public RecordSink {
  public:
   explicit Publisher(const PublisherConfig& config);
   ~Publisher() override;

@@ -68,9 +68,9 @@ using Record = std::variant<PlantRecord, EventRecord, ShapeRecord>;
 static_assert(std::is_trivially_copyable_v<Record>);
 
 /// Where records go. RT: as safe as the implementation.
-class Recorder {
+class RecordSink {
  public:
-  virtual ~Recorder() = default;
+  virtual ~RecordSink() = default;
   virtual void Put(const Record& record) noexcept = 0;
 };
 

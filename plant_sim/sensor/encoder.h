@@ -6,9 +6,10 @@
 
 namespace reed::plant {
 
-class Encoder {
+class JointEncoder {
  public:
-  explicit Encoder(int bits_per_turn) : lsb_rad_(2.0 * std::numbers::pi / std::ldexp(1.0, bits_per_turn)) {}
+  explicit JointEncoder(int bits_per_turn)
+      : lsb_rad_(2.0 * std::numbers::pi / std::ldexp(1.0, bits_per_turn)) {}
 
   double lsb_rad() const noexcept { return lsb_rad_; }
   double Read(double angle_rad) const noexcept { return std::nearbyint(angle_rad / lsb_rad_) * lsb_rad_; }

@@ -42,7 +42,7 @@ Frame ParseCandump(const std::string& text) {
   return Parse(text.substr(0, mark), text.substr(mark + 1));
 }
 
-Frame Encode(Encoder& encoder, std::istream& in) {
+Frame Encode(FrameEncoder& encoder, std::istream& in) {
   std::string kind;
   int joint = 0, number = 0, low4 = 0;
   in >> kind;
@@ -98,7 +98,7 @@ void PrintDecoded(Decoder& decoder, std::istream& in) {
 }
 
 void RunCodec() {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   for (std::string line, verb; std::getline(std::cin, line);) {
     std::istringstream in(line);

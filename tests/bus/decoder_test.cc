@@ -19,7 +19,7 @@ std::uint64_t Count(const Decoder& decoder, Reject reject) {
 }
 
 /// One frame of each kind with plausible content, all from one sender.
-std::vector<Frame> OneOfEach(Encoder& encoder) {
+std::vector<Frame> OneOfEach(FrameEncoder& encoder) {
   std::vector<Frame> frames{encoder.Sync({17})};
   for (int joint = 0; joint < kMaxJoints; ++joint) {
     frames.push_back(encoder.JointState(joint, {0.5, -0.25, 3.0, DriveState::kEnabled, 1}));
@@ -30,7 +30,7 @@ std::vector<Frame> OneOfEach(Encoder& encoder) {
 }
 
 TEST(Decoder, FramesHaveTheIdentifiersAndSizesOfTheContract) {
-  Encoder encoder;
+  FrameEncoder encoder;
   const std::vector<Frame> frames = OneOfEach(encoder);
   const std::vector<std::pair<unsigned, int>> contract{{0x080, 8},  {0x101, 16}, {0x102, 16}, {0x103, 16},
                                                        {0x104, 16}, {0x105, 16}, {0x106, 16}, {0x107, 16},
@@ -52,7 +52,7 @@ TEST(Decoder, UnknownIdentifierIsRefusedAndCounted) {
     EXPECT_EQ(got.reject, Reject::kUnknownId);
     EXPECT_EQ(got.kind, MessageKind::kUnknown);
   }
-  Frame other = Encoder().Sync({1});
+  Frame other = FrameEncoder().Sync({1});
   other.extended = true;  // the number of SYNC with 29 bits is another identifier
   EXPECT_EQ(decoder.Decode(other).reject, Reject::kUnknownId);
   EXPECT_EQ(Count(decoder, Reject::kUnknownId), 9U);
@@ -60,7 +60,7 @@ TEST(Decoder, UnknownIdentifierIsRefusedAndCounted) {
 }
 
 TEST(Decoder, WrongLengthIsRefusedForEveryFrameAndLeavesTheSequenceAlone) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   for (const Frame& good : OneOfEach(encoder)) {
     for (const int size : {0, 2, 7, 12, 24, 64}) {
@@ -74,7 +74,7 @@ TEST(Decoder, WrongLengthIsRefusedForEveryFrameAndLeavesTheSequenceAlone) {
 }
 
 TEST(Decoder, DamagedByteIsRefusedForEveryFrame) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   for (const Frame& good : OneOfEach(encoder)) {
     for (std::size_t byte = 0; byte < good.size; ++byte) {
@@ -89,7 +89,7 @@ TEST(Decoder, DamagedByteIsRefusedForEveryFrame) {
 }
 
 TEST(Decoder, FrameOfOneJointUnderTheIdentifierOfAnotherIsRefused) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   Frame frame = encoder.JointState(2, {});
   frame.id = layout::kJointState[3].id;
@@ -97,7 +97,7 @@ TEST(Decoder, FrameOfOneJointUnderTheIdentifierOfAnotherIsRefused) {
 }
 
 TEST(Decoder, RepeatedFrameIsRefused) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   for (const Frame& frame : OneOfEach(encoder)) {
     EXPECT_EQ(decoder.Decode(frame).reject, Reject::kNone);
@@ -108,7 +108,7 @@ TEST(Decoder, RepeatedFrameIsRefused) {
 }
 
 TEST(Decoder, SkippedFramesAreCountedAsLostAndTheNextIsUsed) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   decoder.Decode(encoder.Sync({0}));
   for (std::uint32_t cycle = 1; cycle <= 19; ++cycle) (void)encoder.Sync({cycle});
@@ -121,7 +121,7 @@ TEST(Decoder, SkippedFramesAreCountedAsLostAndTheNextIsUsed) {
 }
 
 TEST(Decoder, LongerGapIsRefusedOnceAndThenFollowed) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   decoder.Decode(encoder.Sync({0}));
   for (std::uint32_t cycle = 1; cycle <= 20; ++cycle) (void)encoder.Sync({cycle});
@@ -131,7 +131,7 @@ TEST(Decoder, LongerGapIsRefusedOnceAndThenFollowed) {
 }
 
 TEST(Decoder, EachIdentifierHasItsOwnCounter) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   for (int round = 0; round < 3; ++round) {
     for (const Frame& frame : OneOfEach(encoder)) {
@@ -164,7 +164,7 @@ TEST(Decoder, NanInfinityAndTheFirstFloatBeyondEachBoundAreRefusedForEverySignal
   for (const FloatSignal& signal : FloatSignals()) {
     const float beyond = std::nextafter(signal.bound, inf);
     for (const float value : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, beyond, -beyond}) {
-      Encoder encoder;
+      FrameEncoder encoder;
       Decoder decoder;
       Frame frame = OneOfEach(encoder)[signal.frame];
       std::memcpy(&frame.data[signal.byte], &value, sizeof value);
@@ -177,7 +177,7 @@ TEST(Decoder, NanInfinityAndTheFirstFloatBeyondEachBoundAreRefusedForEverySignal
       ASSERT_EQ(got.command.torque_Nm[0], 0.0);
     }
     for (const float value : {signal.bound, -signal.bound}) {
-      Encoder encoder;
+      FrameEncoder encoder;
       Decoder decoder;
       Frame frame = OneOfEach(encoder)[signal.frame];
       std::memcpy(&frame.data[signal.byte], &value, sizeof value);
@@ -189,7 +189,7 @@ TEST(Decoder, NanInfinityAndTheFirstFloatBeyondEachBoundAreRefusedForEverySignal
 
 TEST(Decoder, StatesAndRequestsThatDoNotExistAreRefused) {
   for (unsigned state = 0; state < 8; ++state) {
-    Encoder encoder;
+    FrameEncoder encoder;
     Decoder decoder;
     Frame frame = encoder.JointState(0, {});
     frame.data[3] = static_cast<std::uint8_t>(state | 0xA0U);
@@ -197,7 +197,7 @@ TEST(Decoder, StatesAndRequestsThatDoNotExistAreRefused) {
     EXPECT_EQ(decoder.Decode(frame).reject, state <= 4 ? Reject::kNone : Reject::kRange) << state;
   }
   for (unsigned request = 0; request < 256; ++request) {
-    Encoder encoder;
+    FrameEncoder encoder;
     Decoder decoder;
     Frame frame = encoder.Command({});
     frame.data[3] = static_cast<std::uint8_t>(request);
@@ -207,7 +207,7 @@ TEST(Decoder, StatesAndRequestsThatDoNotExistAreRefused) {
 }
 
 TEST(Decoder, RefusedContentStillAdvancesTheSequence) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   Frame absurd = encoder.Command({});
   absurd.data[3] = 77;

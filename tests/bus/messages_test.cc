@@ -25,7 +25,7 @@ class Messages : public testing::Test {
   std::uint32_t Any32() { return static_cast<std::uint32_t>(random_()); }
 
   std::mt19937 random_{7};
-  Encoder encoder_;
+  FrameEncoder encoder_;
   Decoder decoder_;
 };
 

@@ -86,7 +86,7 @@ class SocketCan : public testing::Test {
 };
 
 TEST_F(SocketCan, FramesOfACycleArriveInOrderWithEveryByte) {
-  Encoder encoder;
+  FrameEncoder encoder;
   std::vector<Frame> sent{encoder.Sync({5})};
   for (int joint = 0; joint < kMaxJoints; ++joint) sent.push_back(encoder.JointState(joint, {0.1 * joint}));
   sent.push_back(encoder.Wrench({5, {1, 2, 3}, {4, 5, 6}, true}));
@@ -106,7 +106,7 @@ TEST_F(SocketCan, FramesOfACycleArriveInOrderWithEveryByte) {
 
 TEST_F(SocketCan, FramesGoOutAsCanFdWithBitRateSwitch) {
   ASSERT_TRUE(raw_.bound());
-  Encoder encoder;
+  FrameEncoder encoder;
   const std::array frame{encoder.Sync({1})};
   ASSERT_EQ(a_.Send(frame), 1);
   const canfd_frame got = raw_.Read();
@@ -116,7 +116,7 @@ TEST_F(SocketCan, FramesGoOutAsCanFdWithBitRateSwitch) {
 }
 
 TEST_F(SocketCan, OwnFramesAreNotReceived) {
-  Encoder encoder;
+  FrameEncoder encoder;
   const std::array sync{encoder.Sync({1})}, command{encoder.Command({})};
   ASSERT_EQ(a_.Send(sync), 1);
   ASSERT_EQ(Take(b_, 1).size(), 1U);  // it did travel
@@ -155,7 +155,7 @@ TEST_F(SocketCan, ErrorFramesAreCountedAndBusOffIsTheEnd) {
 }
 
 TEST_F(SocketCan, CycleTouchesNoHeap) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   std::array<Frame, 8> out{}, in{};
   {
@@ -180,7 +180,7 @@ TEST_F(SocketCan, WaitsForTheDeadlineWhenNothingComes) {
 
 TEST_F(SocketCan, FloodBeyondTheQueueIsCountedAsOverflow) {
   constexpr int kFlood = 40000;
-  Encoder encoder;
+  FrameEncoder encoder;
   std::uint64_t sent = 0;
   for (int n = 0; n < kFlood; n += 100) {
     std::vector<Frame> block;
@@ -251,7 +251,7 @@ TEST_F(SocketCan, BusIsLostWhenTheInterfaceGoesDownWhileReceiving) {
 TEST_F(SocketCan, BusIsLostWhenTheInterfaceGoesDownWhileSending) {
   const InterfaceControl control;
   ASSERT_TRUE(control.Up(false)) << "needs CAP_NET_ADMIN";
-  Encoder encoder;
+  FrameEncoder encoder;
   const std::array frames{encoder.Sync({1}), encoder.Command({})};
   EXPECT_EQ(a_.Send(frames), 0);
   EXPECT_FALSE(a_.alive());

@@ -85,7 +85,7 @@ class Stranger {
 };
 
 TEST_F(UdpBus, FramesOfACycleArriveInOrderWithEveryByte) {
-  Encoder encoder;
+  FrameEncoder encoder;
   std::vector<Frame> sent{encoder.Sync({5})};
   for (int joint = 0; joint < kMaxJoints; ++joint) sent.push_back(encoder.JointState(joint, {0.1 * joint}));
   sent.push_back(encoder.Wrench({5, {1, 2, 3}, {4, 5, 6}, true}));
@@ -120,7 +120,7 @@ TEST_F(UdpBus, NeighboursOfEqualSizeStayDatagramsOfTheirOwnInOrder) {  // UDP_SE
 
 TEST_F(UdpBus, HeldFramesLeaveTogetherWithTheNextReceive) {
   a_.SendWithNextReceive();
-  Encoder encoder;
+  FrameEncoder encoder;
   const std::array<Frame, 1> command{encoder.Command({5, DriveRequest::kEnable, {8, 7, 6, 5, 4, 3, 2, 1}})};
   const std::array<Frame, 1> sync{encoder.Sync({6})};
   EXPECT_EQ(a_.Send(command), 1);
@@ -346,7 +346,7 @@ TEST_F(UdpBus, PacketsCannotLeaveThisMachine) {
 }
 
 TEST_F(UdpBus, CycleTouchesNoHeap) {
-  Encoder encoder;
+  FrameEncoder encoder;
   Decoder decoder;
   std::array<Frame, 8> out{}, in{};
   {

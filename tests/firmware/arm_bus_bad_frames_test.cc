@@ -93,7 +93,7 @@ TEST_F(ArmBusTest, AJointThatTheArmDoesNotHaveIsPassedOver) {
 }
 
 TEST_F(ArmBusTest, AForeignSyncOrCommandIsNoticedInItsCycle) {
-  bus::Encoder other;
+  bus::FrameEncoder other;
   GoodCycle(0);
   EXPECT_FALSE(seen().foreign_controller);
   Sync(1);
@@ -111,7 +111,7 @@ TEST_F(ArmBusTest, AForeignSyncOrCommandIsNoticedInItsCycle) {
 }
 
 TEST_F(ArmBusTest, ADamagedSyncOrCommandIsCountedAndIsNobodysController) {
-  bus::Encoder other;
+  bus::FrameEncoder other;
   GoodCycle(0);
   Sync(1);
   bus::Frame sync = other.Sync({77}), command = other.Command({77, bus::DriveRequest::kEnable, {}});
@@ -131,7 +131,7 @@ TEST_F(ArmBusTest, ADamagedSyncOrCommandIsCountedAndIsNobodysController) {
 }
 
 TEST_F(ArmBusTest, ARepeatedSyncIsSomebodysAllTheSame) {
-  bus::Encoder other;
+  bus::FrameEncoder other;
   const bus::Frame sync = other.Sync({77});
   Sync(0);
   Put(sync);

@@ -48,7 +48,7 @@ class ArmBusTest : public ::testing::Test {
   }
 
   test::FakeWire wire_;
-  bus::Encoder peer_;
+  bus::FrameEncoder peer_;
   bus::ReedControllerCodec codec_;
   ArmBus<kN> bus_{wire_.controller, codec_};
   telemetry::Snapshot tap_;

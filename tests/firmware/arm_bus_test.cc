@@ -98,7 +98,7 @@ TEST_F(ArmBusTest, ALostWrenchAgesWhileTheJointsStayFresh) {
 TEST_F(ArmBusTest, TheFirstWrenchAfterALossMakesTheSameMeasurementsWhetherItIsSeenAtOnceOrACycleLater) {
   for (const bool at_once : {true, false}) {
     test::FakeWire wire;
-    bus::Encoder peer;
+    bus::FrameEncoder peer;
     bus::ReedControllerCodec codec;
     ArmBus<1> bus(wire.controller, codec);
     const auto put = [&](const bus::Frame& frame) { wire.plant.Send(std::span(&frame, 1)); };

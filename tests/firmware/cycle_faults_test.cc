@@ -118,7 +118,7 @@ TEST(Cycle, FramesThatStayDamagedStopTheArmLikeLostOnes) {
 TEST(Cycle, AnotherControllersCommandIsAFaultInTheSameCycle) {
   SilRig rig(PressKnown());
   ASSERT_TRUE(rig.RunActive(0.5));
-  bus::Encoder other;
+  bus::FrameEncoder other;
   rig.injected = other.Command({0, bus::DriveRequest::kEnable, {}});
   rig.Run();
   ExpectFault(rig, Reason::kForeignController);
@@ -126,7 +126,7 @@ TEST(Cycle, AnotherControllersCommandIsAFaultInTheSameCycle) {
 
 TEST(Cycle, AnotherControllerBeforeTheStartKeepsTheBrakesClosed) {
   SilRig rig(PressKnown());
-  bus::Encoder other;
+  bus::FrameEncoder other;
   rig.injected = other.Sync({5});
   rig.Run();
   ExpectFault(rig, Reason::kForeignController);
@@ -138,7 +138,7 @@ TEST(Cycle, ADriveOfAJointThatTheArmDoesNotHaveIsAFault) {
     if (active) {
       ASSERT_TRUE(rig.RunActive(0.1));
     }
-    bus::Encoder sixth;
+    bus::FrameEncoder sixth;
     rig.injected = sixth.JointState(5, {});
     rig.Run();
     ExpectFault(rig, Reason::kUnexpectedJoint);
@@ -178,7 +178,7 @@ class Rewriter {
 
  private:
   bus::Decoder decoder_;
-  bus::Encoder encoder_;
+  bus::FrameEncoder encoder_;
 };
 
 TEST(Cycle, ADriveThatReportsAFaultOrAClosedBrakeIsAFaultInTheSameCycle) {

@@ -33,19 +33,19 @@ LimitValues<2> Values() {
 
 struct Gate {
   Limits<2> limits{Values()};
-  Verdict verdict;
+  LimitCheck check;
 
   Vec2 Apply(double tau_1, double tau_2, int age = 0) {
-    verdict = {};
-    return limits.Apply(Vec2(tau_1, tau_2), age, verdict);
+    check = {};
+    return limits.Apply(Vec2(tau_1, tau_2), age, check);
   }
   /// Fresh cycles until the rate limit no longer matters.
   void Reach(double tau_1, double tau_2) {
     for (int i = 0; i < 20; ++i) Apply(tau_1, tau_2);
   }
-  bool Acts(Reason reason) const { return (verdict.limits & LimitBit(reason)) != 0; }
-  Verdict CheckState(double q_1, double q_2, double qd_1 = 0.0, double qd_2 = 0.0, double force = 0.0,
-                     int age = 0) const {
+  bool Acts(Reason reason) const { return (check.limits & LimitBit(reason)) != 0; }
+  LimitCheck CheckState(double q_1, double q_2, double qd_1 = 0.0, double qd_2 = 0.0, double force = 0.0,
+                        int age = 0) const {
     return limits.CheckState(Vec2(q_1, q_2), Vec2(qd_1, qd_2), force, age, 1);
   }
 };
@@ -53,8 +53,8 @@ struct Gate {
 TEST(Protect, ATorqueInsideEveryLimitPassesUnchanged) {
   Gate gate;
   EXPECT_EQ(gate.Apply(3.0, -4.0), Vec2(3.0, -4.0));
-  EXPECT_EQ(gate.verdict.limits, 0);
-  EXPECT_EQ(gate.verdict.trip, Reason::kNone);
+  EXPECT_EQ(gate.check.limits, 0);
+  EXPECT_EQ(gate.check.trip, Reason::kNone);
 }
 
 TEST(Protect, TorqueIsCutToEachJointsOwnLimit) {
@@ -62,7 +62,7 @@ TEST(Protect, TorqueIsCutToEachJointsOwnLimit) {
   gate.Reach(100.0, -100.0);
   EXPECT_LT((gate.Apply(100.0, -100.0) - Vec2(40.0, -8.0)).norm(), 1e-12);
   EXPECT_TRUE(gate.Acts(Reason::kTorque));
-  EXPECT_EQ(gate.verdict.trip, Reason::kNone);
+  EXPECT_EQ(gate.check.trip, Reason::kNone);
 }
 
 TEST(Protect, TorqueChangesByAtMostOneStepPerCycleUpAndDown) {
@@ -90,8 +90,8 @@ TEST(Protect, ALawThatIsNotFiniteTripsWithTorqueZeroWhateverTheAge) {
       Gate gate;
       gate.Reach(30.0, 6.0);
       EXPECT_EQ(gate.Apply(1.0, bad, age), Vec2(0.0, 0.0));
-      EXPECT_EQ(gate.verdict.trip, Reason::kNotFinite);
-      EXPECT_EQ(gate.verdict.joint, 1);
+      EXPECT_EQ(gate.check.trip, Reason::kNotFinite);
+      EXPECT_EQ(gate.check.joint, 1);
     }
   }
 }
@@ -125,10 +125,10 @@ TEST(Protect, BeyondTheStopAgeTheTorqueFallsInEqualStepsToZeroAtTwiceTheStopAge)
     EXPECT_TRUE(gate.Acts(Reason::kRampDown));
     EXPECT_EQ(gate.CheckState(0, 0, 0, 0, 0, age).trip, Reason::kNone);
   }
-  const Verdict verdict = gate.CheckState(0, 0, 0, 0, 0, 2 * kStop + 1);
-  EXPECT_EQ(verdict.trip, Reason::kStaleMeasurement);
-  EXPECT_EQ(verdict.joint, 1);
-  EXPECT_EQ(verdict.value, 2 * kStop + 1);
+  const LimitCheck check = gate.CheckState(0, 0, 0, 0, 0, 2 * kStop + 1);
+  EXPECT_EQ(check.trip, Reason::kStaleMeasurement);
+  EXPECT_EQ(check.joint, 1);
+  EXPECT_EQ(check.value, 2 * kStop + 1);
 }
 
 TEST(Protect, FreshMeasurementsEndHoldAndRampAtTheTorqueRate) {
@@ -148,9 +148,9 @@ TEST(Protect, EveryJointTripsAtBothEndsOfItsOwnRange) {
   } outside[] = {{1.5001, 0, 0},  {-1.0001, 0, 0}, {0, 2.5001, 1},
                  {0, -2.0001, 1}, {kNaN, 0, 0},    {0, kNaN, 1}};
   for (const auto& at : outside) {
-    const Verdict verdict = gate.CheckState(at.q_1, at.q_2);
-    EXPECT_EQ(verdict.trip, Reason::kJointPosition);
-    EXPECT_EQ(verdict.joint, at.joint);
+    const LimitCheck check = gate.CheckState(at.q_1, at.q_2);
+    EXPECT_EQ(check.trip, Reason::kJointPosition);
+    EXPECT_EQ(check.joint, at.joint);
   }
   EXPECT_EQ(gate.CheckState(1.6, 0).value, 1.6);
 }

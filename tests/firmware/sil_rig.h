@@ -20,7 +20,7 @@
 namespace reed::test {
 
 /// The last truth of the plant.
-class LastTruth final : public plant::Recorder {
+class LastTruth final : public plant::RecordSink {
  public:
   void Put(const plant::Record& record) noexcept override {
     if (const auto* truth = std::get_if<plant::PlantRecord>(&record)) last = *truth;

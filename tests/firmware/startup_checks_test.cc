@@ -13,7 +13,7 @@ class SecondController : public ::testing::Test {
   void Put(const bus::Frame& frame) { wire_.plant.Send(std::span(&frame, 1)); }
 
   test::FakeWire wire_;
-  bus::Encoder other_;
+  bus::FrameEncoder other_;
 };
 
 TEST_F(SecondController, IsRefusedByItsSyncOrItsCommand) {

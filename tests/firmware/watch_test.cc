@@ -30,7 +30,7 @@ class EnablingArm : public ::testing::Test {
     measured_.wrench_age = 0;
   }
 
-  Verdict Check(int age, bool away = false) {
+  LimitCheck Check(int age, bool away = false) {
     measured_.age.fill(age);
     CycleState state;
     state.missed_in_row_exceeded = away;
@@ -51,10 +51,10 @@ TEST_F(EnablingArm, HasNothingToReportWhileItAnswers) {
 }
 
 TEST_F(EnablingArm, MeasurementsThatAreOldBecauseTheControllerWasAwayAreReportedAsItsMissedCycles) {
-  const Verdict verdict = Check(2 * kStop + 1, true);
-  EXPECT_EQ(verdict.trip, Reason::kMissedCycles);
-  EXPECT_EQ(verdict.value, kAway);
-  EXPECT_EQ(verdict.joint, -1);
+  const LimitCheck check = Check(2 * kStop + 1, true);
+  EXPECT_EQ(check.trip, Reason::kMissedCycles);
+  EXPECT_EQ(check.value, kAway);
+  EXPECT_EQ(check.joint, -1);
 }
 
 TEST_F(EnablingArm, TheNameHoldsAsLongAsTheAbsenceIsYoungerThanTheOldestMeasurement) {
@@ -67,9 +67,9 @@ TEST_F(EnablingArm, TheNameHoldsAsLongAsTheAbsenceIsYoungerThanTheOldestMeasurem
 TEST_F(EnablingArm, AnAbsenceLongAgoIsNoReason) {
   Check(0, true);
   for (int cycle = 0; cycle < 100; ++cycle) Check(0);
-  const Verdict verdict = Check(2 * kStop + 1);
-  EXPECT_EQ(verdict.trip, Reason::kStaleMeasurement);
-  EXPECT_EQ(verdict.value, 2 * kStop + 1);
+  const LimitCheck check = Check(2 * kStop + 1);
+  EXPECT_EQ(check.trip, Reason::kStaleMeasurement);
+  EXPECT_EQ(check.value, 2 * kStop + 1);
 }
 
 TEST_F(EnablingArm, WithoutAnAbsenceOldMeasurementsAreTheReason) {

@@ -1,10 +1,10 @@
-// The serial form of the loop against the finite matrix analysis, on arms with odd twists.
+// The serial form of the loop against the direct stiffness method, on arms with odd twists.
 #include "reed/core/model/compliance.h"
 
 #include <gtest/gtest.h>
 
 #include "reed/firmware/setup/arm_model.h"
-#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/firmware/stiffness/direct_stiffness_arm.h"
 #include "reed/tests/model/states.h"
 
 namespace reed::model {
@@ -42,14 +42,14 @@ void ExpectAgreement(const test::ModelArm<N, P>& arm, JointModel joints, test::D
   }
 }
 
-TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnA5) {
+TEST(SerialCompliance, AgreesWithTheDirectStiffnessMethodOnA5) {
   const test::ModelArm<5, 6> arm(test::ArmA5());
   test::Draw draw(21);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }
 
-TEST(SerialCompliance, AgreesWithTheFiniteMatrixAnalysisOnASkewArm) {
+TEST(SerialCompliance, AgreesWithTheDirectStiffnessMethodOnASkewArm) {
   const test::ModelArm<6, 4> arm(test::SkewArm());
   test::Draw draw(22);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);

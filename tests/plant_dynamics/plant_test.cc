@@ -138,13 +138,13 @@ TEST(ArmPlant, StateThatIsNoNumberIsNamedWithItsTime) {
   plant.Reset(test::MidPose());
   plant.Advance(VectorXd::Zero(5), false, 1e-3);
   EXPECT_TRUE(plant.healthy());
-  EXPECT_EQ(plant.ailment(), "");
+  EXPECT_EQ(plant.fault_description(), "");
   VectorXd torque = VectorXd::Zero(5);
   torque[2] = std::numeric_limits<double>::quiet_NaN();
   plant.Advance(torque, false, 1e-3);
   EXPECT_FALSE(plant.healthy());
-  EXPECT_NE(plant.ailment().find("motor"), std::string::npos) << plant.ailment();
-  EXPECT_NE(plant.ailment().find("t = 0.002 s"), std::string::npos) << plant.ailment();
+  EXPECT_NE(plant.fault_description().find("motor"), std::string::npos) << plant.fault_description();
+  EXPECT_NE(plant.fault_description().find("t = 0.002 s"), std::string::npos) << plant.fault_description();
   plant.Reset(test::MidPose());
   EXPECT_TRUE(plant.healthy());
 }
@@ -156,7 +156,7 @@ TEST(ArmPlant, AbsurdSpeedIsNamedWithItsJoint) {
   torque[4] = 1e6;
   for (int i = 0; i < 10; ++i) plant.Advance(torque, false, 1e-3);
   EXPECT_FALSE(plant.healthy());
-  EXPECT_NE(plant.ailment().find("motor 5"), std::string::npos) << plant.ailment();
+  EXPECT_NE(plant.fault_description().find("motor 5"), std::string::npos) << plant.fault_description();
 }
 
 class RefusedArmTest : public testing::TestWithParam<std::pair<const char*, void (*)(PlantConfig&)>> {};

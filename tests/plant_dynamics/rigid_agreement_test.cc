@@ -7,7 +7,7 @@
 #include <random>
 
 #include "reed/core/model/static_deflection.h"
-#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/firmware/stiffness/direct_stiffness_arm.h"
 #include "reed/plant/dynamics/equations_of_motion.h"
 #include "reed/plant/dynamics/modes.h"
 #include "reed/tests/support/model_arm.h"

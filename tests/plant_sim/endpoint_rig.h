@@ -45,7 +45,9 @@ class RotorBody final : public ArmBody {
     return shape_;
   }
   bool healthy() const override { return truth_.t_s < sick_from_s; }
-  std::string ailment() const override { return healthy() ? "" : "motor 1 speed is not finite at 0.005 s"; }
+  std::string fault_description() const override {
+    return healthy() ? "" : "motor 1 speed is not finite at 0.005 s";
+  }
 
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   double sick_from_s = 1e9;
@@ -58,7 +60,7 @@ class RotorBody final : public ArmBody {
   ArmShape shape_;
 };
 
-class VectorRecorder final : public Recorder {
+class VectorRecorder final : public RecordSink {
  public:
   void Put(const Record& record) noexcept override { records.push_back(record); }
 
@@ -128,7 +130,7 @@ class FakeController {
 
  private:
   test::FakeTransport& transport_;
-  bus::Encoder encoder_;
+  bus::FrameEncoder encoder_;
   bus::Decoder decoder_;
 };
 

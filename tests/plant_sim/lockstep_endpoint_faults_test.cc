@@ -112,7 +112,7 @@ TEST_F(Lockstep, ANewControllerWithFreshCountersIsServedFromItsFirstFrames) {
 
 TEST_F(Lockstep, TheSameSyncFrameTwiceIsAnsweredOnce) {
   Enable();
-  bus::Encoder encoder;
+  bus::FrameEncoder encoder;
   encoder.Sync({0});
   encoder.Sync({1});
   const bus::Frame sync = encoder.Sync({2});
@@ -138,7 +138,7 @@ TEST_F(Lockstep, FramesOfNobodysConcernAreIgnored) {
 }
 
 TEST_F(Lockstep, ADamagedStateFrameIsNoOtherArm) {
-  bus::Encoder another_arm;
+  bus::FrameEncoder another_arm;
   bus::Frame state = another_arm.JointState(0, {});
   state.data[8] ^= 1U;
   controller_.Send(state);
@@ -149,7 +149,7 @@ TEST_F(Lockstep, ADamagedStateFrameIsNoOtherArm) {
 }
 
 TEST_F(Lockstep, AnotherArmOnTheBusIsToldOnceAndAnswersGoOn) {
-  bus::Encoder another_arm;
+  bus::FrameEncoder another_arm;
   for (std::uint32_t k = 0; k < 3; ++k) {
     EXPECT_EQ(recorder_.Count(PlantEvent::kAnotherArm), k > 0 ? 1 : 0);
     controller_.Sync(k);

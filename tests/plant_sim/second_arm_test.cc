@@ -13,7 +13,7 @@ class SecondArm : public ::testing::Test {
   void Put(const bus::Frame& frame) { wire_.controller.Send(std::span(&frame, 1)); }
 
   test::FakeWire wire_;
-  bus::Encoder others_;
+  bus::FrameEncoder others_;
 };
 
 TEST_F(SecondArm, IsRefusedWhereAJointOrAWristAnswers) {

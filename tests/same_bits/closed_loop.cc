@@ -69,7 +69,7 @@ class Digest {
   double last_ = 0.0;
 };
 
-struct NoRecord final : plant::Recorder {
+struct NoRecord final : plant::RecordSink {
   void Put(const plant::Record&) noexcept override {}
 };
 

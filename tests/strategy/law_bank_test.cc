@@ -47,8 +47,8 @@ class LawBankTest : public testing::Test {
     Outcome out{VecN::Zero(), VecN::Zero(), AdaptiveState<N, P>(gains), AdaptiveState<N, P>(gains)};
     out.known = law.known(in, out.after_known);
     out.unknown = law.unknown(in, out.after_unknown);
-    law.learn_known(in, out.after_known);
-    law.learn_unknown(in, out.after_unknown);
+    law.adapt_known(in, out.after_known);
+    law.adapt_unknown(in, out.after_unknown);
     return out;
   }
   VecN Model(const VecP& p) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reed/core/model/static_deflection.h"
-#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/firmware/stiffness/direct_stiffness_arm.h"
 #include "reed/firmware/stiffness/semidefinite_solver.h"
 #include "reed/inspect/rigid_cases.h"
 

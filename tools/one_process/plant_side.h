@@ -15,7 +15,7 @@ namespace reed {
 class PlantSide {
  public:
   /// `wire` and `recorder` outlive it.
-  PlantSide(const PlantConfig& config, bus::MemoryWire& wire, plant::Recorder& recorder)
+  PlantSide(const PlantConfig& config, bus::MemoryWire& wire, plant::RecordSink& recorder)
       : body_(config), endpoint_(config, wire.plant, body_, recorder), controller_(wire.controller) {
     controller_.OnReceive([this] { Work(); });
   }

@@ -48,9 +48,9 @@ struct LawInput {
 template <int N, int P>
 struct Law {
   using Torque = model::Vec<N> (*)(const LawInput<N, P>&, const AdaptiveState<N, P>&) noexcept;
-  using Learn = void (*)(const LawInput<N, P>&, AdaptiveState<N, P>&) noexcept;
+  using Adapt = void (*)(const LawInput<N, P>&, AdaptiveState<N, P>&) noexcept;
   Torque known, unknown;
-  Learn learn_known, learn_unknown;
+  Adapt adapt_known, adapt_unknown;
   bool force_loop;          // the force error enters v (30)
   bool acceleration;        // v, v̇ are θ̇ and ComputedAcceleration: computed torque
   bool deflection_allowed;  // θ_d may be corrected by the static deflection
@@ -122,31 +122,31 @@ class LawBank {
                                           in.gains.K_d, in.s, sliding);
   }
 
-  static void LearnRobustKnown(const In& in, State& x) noexcept {
+  static void AdaptRobustKnown(const In& in, State& x) noexcept {
     x.UpdateParameters(in.gains, in.gains.Gamma_known, in.arm, in.regressor.Y, in.s, in.T);
     x.UpdateFriction(in.gains, in.gains.Gamma_c_known, in.aux.v, in.s, in.T);
     x.UpdateSliding(in.gains, in.s, in.T);
   }
-  static void LearnRobustUnknown(const In& in, State& x) noexcept {
+  static void AdaptRobustUnknown(const In& in, State& x) noexcept {
     x.UpdateParameters(in.gains, in.gains.Gamma_unknown, in.arm, in.regressor.Y, in.s, in.T);
     x.UpdateFriction(in.gains, in.gains.Gamma_c_unknown, in.aux.v, in.s, in.T);
     x.UpdateSliding(in.gains, in.s, in.T);
   }
-  static void LearnNothing(const In&, State&) noexcept {}
-  static void LearnPrintedKnown(const In& in, State& x) noexcept {
+  static void AdaptNothing(const In&, State&) noexcept {}
+  static void AdaptPrintedKnown(const In& in, State& x) noexcept {
     const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
     x.eta_hat = control::PrintedEta<P>(in.gains.Gamma_known, Yts);
   }
-  static void LearnPrintedUnknown(const In& in, State& x) noexcept {
+  static void AdaptPrintedUnknown(const In& in, State& x) noexcept {
     const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
     x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts);
     x.sigma_0 = control::PrintedSigma<N>(in.gains.sliding.c_0, in.s);
     x.sigma_1 = control::PrintedSigma<N>(in.gains.sliding.c_1, in.s);
   }
-  static void LearnCorrectedKnown(const In& in, State& x) noexcept {
+  static void AdaptCorrectedKnown(const In& in, State& x) noexcept {
     x.p_hat += in.T * control::KnownForceUpdate<N, P>(in.gains.Gamma_known, in.regressor.Y, in.s);
   }
-  static void LearnCorrectedUnknown(const In& in, State& x) noexcept {
+  static void AdaptCorrectedUnknown(const In& in, State& x) noexcept {
     const model::Vec<P> Yts = in.regressor.Y.transpose() * in.s;
     x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts);
     x.sigma_0 += in.T * control::Sigma0Rate<N>(in.gains.sliding.c_0, in.s);
@@ -186,20 +186,20 @@ class LawBank {
   // In the order of LawId: torque known / unknown, update known / unknown, force loop, computed acceleration, static
   // deflection.
   static constexpr std::array<Law<N, P>, 7> kLaws{{
-      {RobustKnown, RobustUnknown, LearnRobustKnown, LearnRobustUnknown, true, false, true},
-      {Pd, Pd, LearnNothing, LearnNothing, false, false, false},
-      {Pd, Pd, LearnNothing, LearnNothing, false, false, false},
-      {Computed, Computed, LearnNothing, LearnNothing, false, true, false},
-      {FixedKnown, FixedUnknown, LearnNothing, LearnNothing, true, false, true},
-      {PrintedKnown, PrintedUnknown, LearnPrintedKnown, LearnPrintedUnknown, false, false, false},
-      {FixedKnown, CorrectedUnknown, LearnCorrectedKnown, LearnCorrectedUnknown, true, false, false},
+      {RobustKnown, RobustUnknown, AdaptRobustKnown, AdaptRobustUnknown, true, false, true},
+      {Pd, Pd, AdaptNothing, AdaptNothing, false, false, false},
+      {Pd, Pd, AdaptNothing, AdaptNothing, false, false, false},
+      {Computed, Computed, AdaptNothing, AdaptNothing, false, true, false},
+      {FixedKnown, FixedUnknown, AdaptNothing, AdaptNothing, true, false, true},
+      {PrintedKnown, PrintedUnknown, AdaptPrintedKnown, AdaptPrintedUnknown, false, false, false},
+      {FixedKnown, CorrectedUnknown, AdaptCorrectedKnown, AdaptCorrectedUnknown, true, false, false},
   }};
   // By the traits of reed/law.h.
   static constexpr std::array<Law<N, P>, 4> kExternalLaws{{
-      {External, External, LearnNothing, LearnNothing, false, false, false},
-      {External, External, LearnNothing, LearnNothing, true, false, false},
-      {External, External, LearnNothing, LearnNothing, false, false, true},
-      {External, External, LearnNothing, LearnNothing, true, false, true},
+      {External, External, AdaptNothing, AdaptNothing, false, false, false},
+      {External, External, AdaptNothing, AdaptNothing, true, false, false},
+      {External, External, AdaptNothing, AdaptNothing, false, false, true},
+      {External, External, AdaptNothing, AdaptNothing, true, false, true},
   }};
 };
 

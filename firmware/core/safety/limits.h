@@ -26,7 +26,7 @@ struct LimitValues {
 };
 
 /// What the gate found. A trip names the first reason and where; limits is the bit set of those that act.
-struct Verdict {
+struct LimitCheck {
   Reason trip = Reason::kNone;
   int joint = -1;
   double value = 0.0;
@@ -39,8 +39,8 @@ class Limits {
   explicit Limits(const LimitValues<N>& values) noexcept : limit_(values) {}
 
   /// Is the arm in a state in which torque may flow? Position, speed, contact force, age of the oldest joint.
-  Verdict CheckState(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
-                     int oldest_joint) const noexcept {
+  LimitCheck CheckState(const Vec<N>& theta, const Vec<N>& theta_dot, double contact_force, int oldest_age,
+                        int oldest_joint) const noexcept {
     for (int i = 0; i < N; ++i) {
       if (!(theta[i] >= limit_.position_min[i] && theta[i] <= limit_.position_max[i]))
         return {Reason::kJointPosition, i, theta[i], 0};
@@ -57,10 +57,10 @@ class Limits {
 
   /// The torque that may be sent instead of `tau_law`. Measurements beyond hold_age: the last torque is held;
   /// beyond stop_age: it ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
-  Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, Verdict& verdict) noexcept {
+  Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, LimitCheck& check) noexcept {
     for (int i = 0; i < N; ++i) {
       if (std::isfinite(tau_law[i])) continue;
-      verdict = {Reason::kNotFinite, i, tau_law[i], 0};
+      check = {Reason::kNotFinite, i, tau_law[i], 0};
       return Release();
     }
 
@@ -69,16 +69,16 @@ class Limits {
     if (oldest_age > limit_.stop_age) {
       const double left = 1.0 - static_cast<double>(oldest_age - limit_.stop_age) / limit_.stop_age;
       tau = held_ * (left > 0.0 ? left : 0.0);
-      verdict.limits |= LimitBit(Reason::kRampDown);
+      check.limits |= LimitBit(Reason::kRampDown);
     } else if (oldest_age > limit_.hold_age) {
       tau = held_;  // the law has old values: hold the last torque that was based on fresh ones
-      verdict.limits |= LimitBit(Reason::kHeldMeasurement);
+      check.limits |= LimitBit(Reason::kHeldMeasurement);
     }
     const Vec<N> bounded = tau.cwiseMax(-limit_.torque).cwiseMin(limit_.torque);
-    if (bounded != tau) verdict.limits |= LimitBit(Reason::kTorque);
+    if (bounded != tau) check.limits |= LimitBit(Reason::kTorque);
     const Vec<N> wanted = bounded - sent_;
     const Vec<N> step = wanted.cwiseMax(-limit_.torque_step).cwiseMin(limit_.torque_step);
-    if (step != wanted) verdict.limits |= LimitBit(Reason::kTorqueRate);
+    if (step != wanted) check.limits |= LimitBit(Reason::kTorqueRate);
     // Where nothing limits, the very torque of the law: sent + (law - sent) would be off by a rounding.
     for (int i = 0; i < N; ++i) sent_[i] = step[i] == wanted[i] ? bounded[i] : sent_[i] + step[i];
     return sent_;

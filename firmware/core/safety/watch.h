@@ -19,17 +19,18 @@ class Watch {
 
   /// Trips are checked only while torque may flow: an arm at rest behind closed brakes is safe. source: of the last
   /// cycle. contact_force: the force on the wall as far as it is known, N.
-  Verdict CheckState(const Measurement<N>& measured, const CycleState& state,
-                     const mode::Supervisor& supervisor, const Limits<N>& limits,
-                     strategy::ForceSource source, double contact_force) noexcept {
+  LimitCheck CheckState(const Measurement<N>& measured, const CycleState& state,
+                        const mode::Supervisor& supervisor, const Limits<N>& limits,
+                        strategy::ForceSource source, double contact_force) noexcept {
     CountIncomplete(measured, supervisor);
     NoteAbsence(state);
     return NameAbsence(Check(measured, state, supervisor, limits, source, contact_force));
   }
 
  private:
-  Verdict Check(const Measurement<N>& measured, const CycleState& state, const mode::Supervisor& supervisor,
-                const Limits<N>& limits, strategy::ForceSource source, double contact_force) const noexcept {
+  LimitCheck Check(const Measurement<N>& measured, const CycleState& state,
+                   const mode::Supervisor& supervisor, const Limits<N>& limits, strategy::ForceSource source,
+                   double contact_force) const noexcept {
     const bool active = supervisor.mode() == mode::Mode::kActive;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
@@ -48,11 +49,11 @@ class Watch {
     // A law that tracks the measured force may not press without it. A law that needs none has another source.
     if (active && source == strategy::ForceSource::kKnown && !wrench_fresh)
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
-    const Verdict verdict = limits.CheckState(measured.theta, measured.theta_dot, contact_force,
-                                              measured.OldestAge(), measured.OldestJoint());
-    if (verdict.trip == Reason::kNone && wrench_fresh && measured.wrench_saturated)
+    const LimitCheck check = limits.CheckState(measured.theta, measured.theta_dot, contact_force,
+                                               measured.OldestAge(), measured.OldestJoint());
+    if (check.trip == Reason::kNone && wrench_fresh && measured.wrench_saturated)
       return {Reason::kWrenchRange, -1, measured.force.cwiseAbs().maxCoeff(), 0};
-    return verdict;
+    return check;
   }
 
   /// Grid points that the controller missed in a row.
@@ -63,14 +64,14 @@ class Watch {
   }
 
   /// A measurement that is old because the controller missed cycles: the missed cycles are the reason to report.
-  Verdict NameAbsence(const Verdict& verdict) const noexcept {
-    const bool stale = verdict.trip == Reason::kStaleMeasurement || verdict.trip == Reason::kStaleWrench;
-    if (stale && absent_cycles_ > 0 && cycles_since_absence_ <= verdict.value)
+  LimitCheck NameAbsence(const LimitCheck& check) const noexcept {
+    const bool stale = check.trip == Reason::kStaleMeasurement || check.trip == Reason::kStaleWrench;
+    if (stale && absent_cycles_ > 0 && cycles_since_absence_ <= check.value)
       return {Reason::kMissedCycles, -1, static_cast<double>(absent_cycles_), 0};
-    return verdict;
+    return check;
   }
 
-  static Verdict Stale(const Measurement<N>& measured) noexcept {
+  static LimitCheck Stale(const Measurement<N>& measured) noexcept {
     return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()), 0};
   }
 

@@ -1,6 +1,6 @@
 // (5), (6) against closed forms: cantilever, L-frame, portal under spread load, springs, joints that pass no
 // moment.
-#include "reed/firmware/stiffness/finite_matrix.h"
+#include "reed/firmware/stiffness/direct_stiffness.h"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ Vec6 Load(const Vector3d& F, const Vector3d& n) {
 }
 Vec6 Force(const Vector3d& F) { return Load(F, Vector3d::Zero()); }
 
-TEST(FiniteMatrix, CantileverInThreeMembersEndsAsInOne) {
-  FiniteMatrix frame;
+TEST(DirectStiffness, CantileverInThreeMembersEndsAsInOne) {
+  DirectStiffness frame;
   int node = frame.AddSupport(Vector3d::Zero());
   for (int k = 1; k <= 3; ++k) {
     const int next = frame.AddFree(Vector3d(0.4 * k, 0.0, 0.0));
@@ -42,10 +42,10 @@ TEST(FiniteMatrix, CantileverInThreeMembersEndsAsInOne) {
   EXPECT_NEAR(end(5), 0.7 * L / kEI, kClosed * std::abs(end(5)));
 }
 
-TEST(FiniteMatrix, LFrameBendsAndTwists) {
+TEST(DirectStiffness, LFrameBendsAndTwists) {
   // Out of its plane: δ = F a³/3EI + F b³/3EI + F b² a/GJ for legs a (clamped, along x) and b (along y).
   constexpr double a = 0.5, b = 0.3, F = 10.0;
-  FiniteMatrix frame;
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero());
   const int corner = frame.AddFree(Vector3d(a, 0.0, 0.0)), end = frame.AddFree(Vector3d(a, b, 0.0));
   frame.AddMember(base, corner, kEA, kEI, kGJ, Vector3d::Zero());
@@ -56,11 +56,11 @@ TEST(FiniteMatrix, LFrameBendsAndTwists) {
   EXPECT_NEAR(tip(2), expected, kClosed * expected);
 }
 
-TEST(FiniteMatrix, LFrameInItsPlane) {
+TEST(DirectStiffness, LFrameInItsPlane) {
   // Force along x at the end of the second leg: axial in the first, bending of both: δ = F b³/3EI + F b² a/EI
   // + F a/EA.
   constexpr double a = 0.5, b = 0.3, F = 10.0;
-  FiniteMatrix frame;
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero());
   const int corner = frame.AddFree(Vector3d(a, 0.0, 0.0)), end = frame.AddFree(Vector3d(a, b, 0.0));
   frame.AddMember(base, corner, kEA, kEI, kGJ, Vector3d::Zero());
@@ -70,9 +70,9 @@ TEST(FiniteMatrix, LFrameInItsPlane) {
   EXPECT_NEAR(frame.Displacement(end, frame.Solve())(0), expected, kClosed * expected);
 }
 
-TEST(FiniteMatrix, SelfWeightSagsByEighthAndSixth) {
+TEST(DirectStiffness, SelfWeightSagsByEighthAndSixth) {
   constexpr double L = 0.9, q = 12.0;
-  FiniteMatrix frame;
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero()), end = frame.AddFree(Vector3d(0.0, L, 0.0));
   frame.AddMember(base, end, kEA, kEI, kGJ, Vector3d(0.0, 0.0, -q * L));
   const Vec6 tip = frame.Displacement(end, frame.Solve());
@@ -80,9 +80,9 @@ TEST(FiniteMatrix, SelfWeightSagsByEighthAndSixth) {
   EXPECT_NEAR(tip(3), -q * L * L * L / (6.0 * kEI), kClosed * std::abs(tip(3)));
 }
 
-TEST(FiniteMatrix, ElasticJointYieldsWhatItsTorqueAsks) {  // (6)
+TEST(DirectStiffness, ElasticJointYieldsWhatItsTorqueAsks) {  // (6)
   constexpr double L = 0.4, k_q = 300.0, F = 2.0;
-  FiniteMatrix frame;
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero());
   const int joint = frame.AddJoint(base, Vector3d::Zero(), Vector3d::UnitZ(), k_q);
   const int end = frame.AddFree(Vector3d(L, 0.0, 0.0));
@@ -95,15 +95,15 @@ TEST(FiniteMatrix, ElasticJointYieldsWhatItsTorqueAsks) {  // (6)
   EXPECT_NEAR(frame.Displacement(end, solution)(2), bending, kClosed);
 }
 
-TEST(FiniteMatrix, RigidNodesMoveLikeOneBody) {  // (6)
-  FiniteMatrix frame;
+TEST(DirectStiffness, RigidNodesMoveLikeOneBody) {  // (6)
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero()), end = frame.AddFree(Vector3d(0.5, 0.0, 0.0));
   frame.AddMember(base, end, kEA, kEI, kGJ, Vector3d::Zero());
   const Vector3d arm(0.1, 0.2, -0.3), F(1.0, 2.0, 3.0);
   const int tool = frame.AddRigid(end, Vector3d(0.5, 0.0, 0.0) + arm);
   frame.AddLoad(tool, Force(F));
   const Vec6 loaded_at_tool = frame.Displacement(end, frame.Solve());
-  FiniteMatrix direct;
+  DirectStiffness direct;
   const int base2 = direct.AddSupport(Vector3d::Zero()), end2 = direct.AddFree(Vector3d(0.5, 0.0, 0.0));
   direct.AddMember(base2, end2, kEA, kEI, kGJ, Vector3d::Zero());
   direct.AddLoad(end2, Load(F, arm.cross(F)));
@@ -113,9 +113,9 @@ TEST(FiniteMatrix, RigidNodesMoveLikeOneBody) {  // (6)
               0.0, 1e-15);
 }
 
-TEST(FiniteMatrix, StaticallyIndeterminateBeamOnTwoClamps) {
+TEST(DirectStiffness, StaticallyIndeterminateBeamOnTwoClamps) {
   constexpr double L = 1.0, F = 50.0;  // load in the middle: F L³/192EI
-  FiniteMatrix frame;
+  DirectStiffness frame;
   const int left = frame.AddSupport(Vector3d::Zero()), right = frame.AddSupport(Vector3d(L, 0.0, 0.0));
   const int middle = frame.AddFree(Vector3d(L / 2.0, 0.0, 0.0));
   frame.AddMember(left, middle, kEA, kEI, kGJ, Vector3d::Zero());
@@ -135,7 +135,7 @@ class JointWithoutMoment : public ::testing::Test {
     frame_.AddMember(base, elbow, kEA, kEI, kGJ, Vector3d::Zero());
     frame_.AddMember(hinge, end_, kEA, kEI, kGJ, Vector3d::Zero());
   }
-  FiniteMatrix frame_;
+  DirectStiffness frame_;
   int end_ = 0;
 };
 
@@ -166,8 +166,8 @@ TEST_F(JointWithoutMoment, LoadsThatItCannotCarryGiveAFiniteAnswer) {
   EXPECT_TRUE(frame_.Displacement(end_, frame_.Solve()).allFinite());
 }
 
-TEST(FiniteMatrix, CartesianStiffnessInvertsTheCompliance) {
-  FiniteMatrix frame;
+TEST(DirectStiffness, CartesianStiffnessInvertsTheCompliance) {
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero());
   const int joint = frame.AddJoint(base, Vector3d::Zero(), Vector3d::UnitY(), 500.0);
   const int corner = frame.AddFree(Vector3d(0.3, 0.1, 0.0)), end = frame.AddFree(Vector3d(0.5, 0.4, 0.2));
@@ -176,15 +176,15 @@ TEST(FiniteMatrix, CartesianStiffnessInvertsTheCompliance) {
   const auto stiffness = frame.CartesianStiffness(end);
   EXPECT_EQ(stiffness.rank, 6);
   for (int k = 0; k < 6; ++k) {
-    FiniteMatrix loaded = frame;
+    DirectStiffness loaded = frame;
     loaded.AddLoad(end, Vec6::Unit(k));
     const Vec6 deflection = loaded.Displacement(end, loaded.Solve());
     EXPECT_NEAR((stiffness.K * deflection - Vec6::Unit(k)).norm(), 0.0, 1e-9);  // (4)
   }
 }
 
-TEST(FiniteMatrix, RefusesAMemberWithoutLengthAndAMasterThatIsNotThere) {
-  FiniteMatrix frame;
+TEST(DirectStiffness, RefusesAMemberWithoutLengthAndAMasterThatIsNotThere) {
+  DirectStiffness frame;
   const int base = frame.AddSupport(Vector3d::Zero()), same = frame.AddFree(Vector3d::Zero());
   EXPECT_THROW(frame.AddMember(base, same, kEA, kEI, kGJ, Vector3d::Zero()), std::invalid_argument);
   EXPECT_THROW(frame.AddRigid(7, Vector3d::Zero()), std::invalid_argument);

@@ -1,4 +1,4 @@
-#include "reed/firmware/stiffness/finite_matrix.h"
+#include "reed/firmware/stiffness/direct_stiffness.h"
 
 #include <Eigen/Eigenvalues>
 #include <stdexcept>
@@ -8,15 +8,15 @@
 
 namespace reed::model {
 
-int FiniteMatrix::AddNode(const Eigen::Vector3d& position, int master, int coordinates) {
+int DirectStiffness::AddNode(const Eigen::Vector3d& position, int master, int coordinates) {
   if (master != kNone && Index(master) >= nodes_.size()) throw std::invalid_argument("no such master node");
   nodes_.push_back({position, master, num_coordinates_, coordinates});
   num_coordinates_ += coordinates;
   return static_cast<int>(nodes_.size()) - 1;
 }
 
-void FiniteMatrix::AddMember(int from, int to, double EA, double EI, double GJ,
-                             const Eigen::Vector3d& spread_force) {
+void DirectStiffness::AddMember(int from, int to, double EA, double EI, double GJ,
+                                const Eigen::Vector3d& spread_force) {
   const Eigen::Vector3d r = nodes_.at(Index(to)).position - nodes_.at(Index(from)).position;
   const double L = r.norm();
   if (!(L > 0.0)) throw std::invalid_argument("a member needs two nodes apart");
@@ -24,7 +24,7 @@ void FiniteMatrix::AddMember(int from, int to, double EA, double EI, double GJ,
       {from, to, MemberStiffness(r / L, L, EA, EI, GJ), EquivalentNodalLoad(r / L, L, spread_force)});
 }
 
-Eigen::MatrixXd FiniteMatrix::Map(int id) const {
+Eigen::MatrixXd DirectStiffness::Map(int id) const {
   const Node& node = nodes_.at(Index(id));
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(6, num_coordinates_);
   if (node.coordinates == 6) T.middleCols<6>(node.first).setIdentity();
@@ -38,7 +38,7 @@ Eigen::MatrixXd FiniteMatrix::Map(int id) const {
   return T;
 }
 
-Eigen::MatrixXd FiniteMatrix::Aggregate() const {
+Eigen::MatrixXd DirectStiffness::Aggregate() const {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(num_coordinates_, num_coordinates_);
   for (const Beam& beam : members_) {
     Eigen::MatrixXd T(12, num_coordinates_);
@@ -51,7 +51,7 @@ Eigen::MatrixXd FiniteMatrix::Aggregate() const {
   return 0.5 * (K + K.transpose());
 }
 
-Eigen::VectorXd FiniteMatrix::Load() const {
+Eigen::VectorXd DirectStiffness::Load() const {
   Eigen::VectorXd W = Eigen::VectorXd::Zero(num_coordinates_);
   for (const Beam& beam : members_) {
     W += Map(beam.from).transpose() * beam.load.head<6>() + Map(beam.to).transpose() * beam.load.tail<6>();
@@ -60,12 +60,12 @@ Eigen::VectorXd FiniteMatrix::Load() const {
   return W;
 }
 
-FiniteMatrix::Solution FiniteMatrix::Solve() const {
+DirectStiffness::Solution DirectStiffness::Solve() const {
   const SemidefiniteSolver solver(Aggregate());
   return {solver.Solve(Load()), solver.rank(), num_coordinates_};  // (5)
 }
 
-FiniteMatrix::Stiffness FiniteMatrix::CartesianStiffness(int node) const {
+DirectStiffness::Stiffness DirectStiffness::CartesianStiffness(int node) const {
   // All q with T q = Δt are q = T⁺ Δt + Z y; the y of least energy gives the Schur complement below.
   constexpr double kIndependent = 1e-10;
   const Eigen::MatrixXd T = Map(node), K = Aggregate();

@@ -17,7 +17,7 @@
 
 namespace reed::model {
 
-class FiniteMatrix {
+class DirectStiffness {
  public:
   /// Rank of a solution: below full rank something can move freely and the answer is the least-norm
   /// one.

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "reed/core/model/compliance.h"
-#include "reed/firmware/stiffness/finite_matrix.h"
+#include "reed/firmware/stiffness/direct_stiffness.h"
 
 namespace reed::model {
 
 struct ArmStructure {
-  FiniteMatrix matrix;
+  DirectStiffness matrix;
   std::vector<int>
       joints;  // one node per joint: the start of its link; empty joint rotations when joints are rigid
   std::vector<int> members;  // end node of every member, from base to tip
@@ -21,7 +21,7 @@ template <int N, int P>
 ArmStructure StructureOf(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const StructuralLoads<N>& loads,
                          JointModel joint_model) {
   ArmStructure out;
-  FiniteMatrix& matrix = out.matrix;
+  DirectStiffness& matrix = out.matrix;
   const auto wrench = [](const Wrench& W) {
     Vec6 both;
     both << W.F, W.n;

@@ -1,9 +1,9 @@
-// The bending plant at rest against the controller's finite matrix analysis (4)-(6): two routes, one arm.
+// The bending plant at rest against the controller's direct stiffness method (4)-(6): two routes, one arm.
 #include <gtest/gtest.h>
 
 #include "reed/core/model/static_deflection.h"
 #include "reed/firmware/setup/arm_model.h"
-#include "reed/firmware/stiffness/finite_matrix_arm.h"
+#include "reed/firmware/stiffness/direct_stiffness_arm.h"
 #include "reed/plant/dynamics/modes.h"
 #include "reed/tests/plant_dynamics/bench.h"
 #include "reed/tests/support/model_arm.h"
@@ -21,7 +21,7 @@ class AgreementTest : public testing::TestWithParam<std::vector<double>> {
   }
 
   /// Tip displacement by (5), (6) under the links' weight, where asked for, and a force at the tool point.
-  Vector3d FiniteMatrixTip(bool weight, const Vector3d& force) const {
+  Vector3d DirectStiffnessTip(bool weight, const Vector3d& force) const {
     model::StructuralLoads<5> loads;
     loads.tip.F = force;
     if (weight) model::AddBodyWeight(arm_, kin_, model::BodiesFor(arm_, arm_.p_true), loads);
@@ -34,20 +34,20 @@ class AgreementTest : public testing::TestWithParam<std::vector<double>> {
   model::Kinematics<5> kin_;
 };
 
-TEST_P(AgreementTest, SagIsThatOfTheFiniteMatrixAnalysis) {
+TEST_P(AgreementTest, SagIsThatOfTheDirectStiffnessMethod) {
   plant::ArmModes plant(TrueOf(test::ArmA5()), PlantModelConfig{}, q_);
   const Vector3d sag = plant.Load(Vector3d::Zero(), true) - kin_.tip;
-  const Vector3d expected = FiniteMatrixTip(true, Vector3d::Zero());
+  const Vector3d expected = DirectStiffnessTip(true, Vector3d::Zero());
   EXPECT_GT(expected.norm(), 1e-4);
   EXPECT_LT((sag - expected).norm(), 0.01 * expected.norm());
 }
 
-TEST_P(AgreementTest, TipStiffnessIsThatOfTheFiniteMatrixAnalysis) {
+TEST_P(AgreementTest, TipStiffnessIsThatOfTheDirectStiffnessMethod) {
   plant::ArmModes plant(TrueOf(test::ArmA5()), PlantModelConfig{}, q_);
   const Vector3d rest = plant.Load(Vector3d::Zero(), true);
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d force = 5.0 * Vector3d::Unit(axis);
-    const Vector3d moved = plant.Load(force, true) - rest, expected = FiniteMatrixTip(false, force);
+    const Vector3d moved = plant.Load(force, true) - rest, expected = DirectStiffnessTip(false, force);
     EXPECT_LT((moved - expected).norm(), 0.01 * expected.norm()) << axis;
   }
 }
