@@ -9,12 +9,13 @@ import signal
 import subprocess
 import time
 
+import own_address
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"))
 FIRMWARE, PLANT = BUILD / "bin" / "reed_firmware", BUILD / "bin" / "reed_plant_sim"
-GROUP = "239.74.163.2"
+GROUP = own_address.group()
 PROGRAMS = {"reed_firmware": FIRMWARE, "reed_plant_sim": PLANT}
 
 

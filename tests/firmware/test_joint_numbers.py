@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 
+import own_address
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -16,7 +17,7 @@ BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"
 def test_an_arm_runs_within_its_scenarios_checks_with_joints(joints, tmp_path):
     environment = {**os.environ, "REED_BUILD_DIR": str(BUILD), "PYTHONPATH": str(ROOT / "tools")}
     done = subprocess.run([sys.executable, "-m", "reed_tools", "run", f"joints{joints}", "--clock", "lockstep", "--bus",
-                           f"udp:239.74.163.2:{43980 + joints}", "--out", str(tmp_path)],
+                           own_address.bus(), "--out", str(tmp_path)],
                           env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())

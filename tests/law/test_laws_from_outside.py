@@ -7,13 +7,14 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import own_address
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
 from reed_tools.record.signals import join
 from reed_tools.record.telemetry_log import load
 
-BUS = "udp:239.74.163.17:43217"
+BUS = own_address.bus()
 EXAMPLE = ROOT / "examples" / "own_law"
 LAW = """
 #include <reed/law.h>

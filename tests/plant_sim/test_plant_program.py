@@ -10,12 +10,13 @@ import time
 
 import can
 import lcm
+import own_address
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("REED_BUILD_DIR", ROOT / "build" / "release"))
 PROGRAM = BUILD / "bin" / "reed_plant_sim"
-GROUP = "239.74.163.2"
+GROUP = own_address.group()
 SYNC_ID, SYNC_SIZE = 128, 8
 
 sys.path.insert(0, str(BUILD / "lcmtypes" / "python"))

@@ -6,10 +6,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import own_address
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BUS = "udp:239.74.163.2:46391"
+BUS = own_address.bus()
 
 
 @pytest.fixture

@@ -8,12 +8,13 @@ import sys
 import time
 from contextlib import contextmanager
 
+import own_address
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
 from reed_tools.record.telemetry_log import load
 
-BUS = "udp:239.74.163.2:46393"
+BUS = own_address.bus()
 CORE = max(os.sched_getaffinity(0))  # where both programs run when nothing else is said
 HOST_PAUSE = 212                     # plant_sim/record/records.h
 PRIORITY = 80                        # of both programs, timing.priority

@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 
+import own_address
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -74,7 +75,7 @@ def test_refused_at_the_start_is(case):
 @pytest.mark.parametrize("case", REFUSED_PATHS)
 def test_refused_by_the_firmware_is_a_reference(case):
     entries, words = REFUSED_PATHS[case]
-    error = refusal("reed_firmware", "press_known", entries, "--no-lcm", "--bus", "udp:239.74.163.2:43671")
+    error = refusal("reed_firmware", "press_known", entries, "--no-lcm", "--bus", own_address.bus())
     for word in words:
         assert word in error, error
 

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tomllib
 
+import own_address
 import pytest
 
 from reed_tools.figures import summary
@@ -18,7 +19,7 @@ from reed_tools.run import hil, plans, scenario
 SCENARIOS = sorted(path.stem for path in (ROOT / "config/scenarios").glob("*.toml") if tomllib.loads(path.read_text())["arm"] == "a5")
 SHORTER_S = {"wall_soft": 3.0, "fluctuating_unknown": 3.0, "free_motion": 3.0,
              "payload_step": 3.0, "press_no_sensor": 3.0}
-BUS = "udp:239.74.163.2:43680"
+BUS = own_address.bus()
 
 
 def run_and_judge(name, folder, *entries):

@@ -4,12 +4,13 @@ import os
 import subprocess
 import sys
 
+import own_address
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
 
 FIRMWARE, PLANT = (str(BUILD / "bin" / name) for name in ("reed_firmware", "reed_plant_sim"))
-BUS = "udp:239.74.163.2:46213"
+BUS = own_address.bus()
 # What is set, and words of the line.
 REFUSED = {
     "budgets longer than the period": (["timing.rx_budget_us=600", "timing.compute_budget_us=300", "timing.tx_budget_us=200"],

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 
+import own_address
 import pytest
 
 from reed_tools.paths import BUILD, ROOT
@@ -18,9 +19,9 @@ SCENARIO = ["--config", "press_known", "--set", "scenario.duration_s=1", "--no-l
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux system calls")
 
 
-def fly(port: int, *options: str, clock: str = "lockstep", under: tuple[str, ...] = ()) -> subprocess.CompletedProcess:
+def fly(*options: str, clock: str = "lockstep", under: tuple[str, ...] = ()) -> subprocess.CompletedProcess:
     pauses = ["--host-pause"] if clock == "realtime" else []
-    options = ["--clock", clock, "--bus", f"udp:239.74.163.2:{port}", *options, *pauses]
+    options = ["--clock", clock, "--bus", own_address.bus(), *options, *pauses]
     plant = subprocess.Popen([str(BUILD / "bin" / "reed_plant_sim"), *SCENARIO, *options[:4]], stdout=subprocess.PIPE,
                              stderr=subprocess.DEVNULL, text=True)
     try:
@@ -37,9 +38,9 @@ def counted(done: subprocess.CompletedProcess, what: str) -> int:
     return int(re.search(rf"(\d+) {what}", done.stdout).group(1))
 
 
-@pytest.mark.parametrize("clock, port", [("lockstep", 46211), ("realtime", 46213)])
-def test_a_whole_run_makes_only_the_named_system_calls_asks_no_heap_and_faults_no_page(clock, port):
-    done = fly(port, "--seccomp", "--set", "limits.hold_age_cycles=100", "--set", "limits.stop_age_cycles=1000",
+@pytest.mark.parametrize("clock", ["lockstep", "realtime"])
+def test_a_whole_run_makes_only_the_named_system_calls_asks_no_heap_and_faults_no_page(clock):
+    done = fly("--seccomp", "--set", "limits.hold_age_cycles=100", "--set", "limits.stop_age_cycles=1000",
                "--set", "timing.max_missed_in_row=1000", "--set", "drives.command_timeout_cycles=1000", clock=clock)
     assert done.returncode >= 0, f"a forbidden call ended it with signal {-done.returncode}"
     assert counted(done, "cycles") > 50
@@ -48,10 +49,10 @@ def test_a_whole_run_makes_only_the_named_system_calls_asks_no_heap_and_faults_n
     assert "involuntary switches" in done.stdout
 
 
-@pytest.mark.parametrize("clock, port", [("lockstep", 46212), ("realtime", 46214)])
-def test_a_cycle_makes_as_few_system_calls_as_its_budget_says(clock, port):
+@pytest.mark.parametrize("clock", ["lockstep", "realtime"])
+def test_a_cycle_makes_as_few_system_calls_as_its_budget_says(clock):
     """Where io_uring is forbidden a cycle on the clock makes two calls more, and two for every further part of its answers."""
-    done = fly(port, clock=clock, under=(str(BUILD / "bin" / "reed_count_syscalls"),))
+    done = fly(clock=clock, under=(str(BUILD / "bin" / "reed_count_syscalls"),))
     threads = [json.loads(line)["calls"] for line in done.stdout.splitlines() if line.startswith("{")]
     loop = max(threads, key=lambda calls: calls.get(SENDMMSG, 0))
     per_cycle = sum(loop.get(number, 0) for number in CALLS) / counted(done, "cycles")

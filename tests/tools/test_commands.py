@@ -6,13 +6,14 @@ import re
 import shlex
 import subprocess
 
+import own_address
 import pytest
 from built import reed as tools  # with the programs that are built; the fixture has stand-ins
 
 from reed_tools.cli import COMMANDS
 from reed_tools.paths import PYTHON, ROOT
 
-BUS = "udp:239.74.163.27:43981"  # a port of its own: tests run side by side
+BUS = own_address.bus()
 LIGHT = {"numpy", "rich"}  # packages that a start may import; the others take longer than everything else together
 START = """
 import sys

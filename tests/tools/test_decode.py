@@ -8,12 +8,13 @@ import time
 import can
 import cantools
 import numpy as np
+import own_address
 import pytest
 from crccheck.crc import Crc16CcittFalse
 
 from reed_tools.paths import PYTHON, ROOT
 
-GROUP, PORT = "239.74.163.2", 46419
+GROUP, PORT = own_address.group(), own_address.port()
 DATABASE = cantools.database.load_file(ROOT / "bus" / "reed.dbc")
 POSITION = float(np.float32(0.25))
 

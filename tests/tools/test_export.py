@@ -12,6 +12,7 @@ import can
 import lcm
 import lockstep_run
 import numpy as np
+import own_address
 import pytest
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
@@ -22,7 +23,7 @@ from reed_tools.paths import PYTHON, ROOT, use_message_types
 from reed_tools.record import configuration, telemetry_log
 from reed_tools.record.message_layout import fields
 
-BUS = "udp:239.74.163.2:46417"
+BUS = own_address.bus()
 # Without those of a law from outside: tests/law has one, and exports it.
 TYPES = {channel: name for channel, name in (telemetry_log.TABLES | telemetry_log.SINGLES).items() if not channel.startswith("REED_LAW")}
 AXES = "xyz"

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+import own_address
 import pytest
 
 from reed_tools import folders
@@ -81,7 +82,7 @@ def test_what_the_disk_refuses_is_a_line(tmp_path):
 
 
 def test_a_second_run_into_the_same_folder_is_refused(reed, tmp_path):
-    bus = "udp:239.74.163.2:43979"
+    bus = own_address.bus()
     assert reed("run", "--bus", bus, "--out", tmp_path).returncode == 1  # of the stand-in's checks
     before = (tmp_path / "summary.json").read_text()
     again = reed("run", "--bus", bus, "--out", tmp_path)
@@ -100,7 +101,7 @@ def test_an_empty_folder_name_is_refused(reed, argv, tmp_path):
 
 def test_a_run_from_a_folder_that_is_gone_ends_as_any_other(reed, tmp_path):
     start = "mkdir gone && cd gone && rmdir ../gone && exec \"$@\""
-    done = subprocess.run(["bash", "-c", start, "bash", *reed.command(["run", "--bus", "udp:239.74.163.2:43979", "--out", tmp_path / "run"])],
+    done = subprocess.run(["bash", "-c", start, "bash", *reed.command(["run", "--bus", own_address.bus(), "--out", tmp_path / "run"])],
                           cwd=tmp_path, env=reed.environment({}), capture_output=True, text=True)
     assert done.returncode == 1 and "internal error" not in done.stderr, done.stderr
     assert (tmp_path / "run" / "report.html").exists() and str(tmp_path / "run" / "report.html") in done.stdout

@@ -10,6 +10,7 @@ import time
 
 import can
 import numpy as np
+import own_address
 import pytest
 
 from reed_tools.paths import ROOT
@@ -17,8 +18,8 @@ from reed_tools.record.telemetry_log import events, load
 from reed_tools.run import bus_choice, vm
 
 DBC = ROOT / "bus" / "reed.dbc"
-UDP_PORT = 43981  # tests run beside other runs
-LCM_URL = "udpm://239.255.76.67:7981?ttl=0"
+UDP_GROUP, UDP_PORT = own_address.group(), own_address.port()
+LCM_URL = own_address.lcm_url()
 LOCKSTEP = ["--clock", "lockstep", "--duration", "1.5"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT / "tools"), "LCM_DEFAULT_URL": LCM_URL}
 
@@ -27,7 +28,7 @@ def reed(*argv):
     return [sys.executable, "-m", "reed_tools", *map(str, argv)]
 
 
-def run(folder, *argv, bus=f"udp:239.74.163.2:{UDP_PORT}"):
+def run(folder, *argv, bus=f"udp:{UDP_GROUP}:{UDP_PORT}"):
     done = subprocess.run(reed("run", "--bus", bus, "--out", folder, *argv), env=ENVIRONMENT, capture_output=True, text=True,
                           timeout=400)
     assert done.returncode in (0, 1), done.stdout + done.stderr
@@ -163,7 +164,7 @@ def test_foreign_programs_read_a_run_on_the_software_bus(tmp_path):
     """lcm-logger hears what the run recorded; python-can's logger hears the frames. Their queues take much of a run, or the
     machine would decide what they hear."""
     logger = subprocess.Popen(["lcm-logger", "-f", "-q", "--lcm-url", f"{LCM_URL}&recv_buf_size={32 << 20}", str(tmp_path / "witness.lcmlog")])
-    listener = subprocess.Popen([sys.executable, "-c", LISTENER, str(tmp_path / "witness.txt"), str(UDP_PORT)],
+    listener = subprocess.Popen([sys.executable, "-c", LISTENER, str(tmp_path / "witness.txt"), UDP_GROUP, str(UDP_PORT)],
                                 stdout=subprocess.PIPE, text=True)
     try:
         assert listener.stdout.readline() == "listening\n"
@@ -188,7 +189,7 @@ def test_foreign_programs_read_a_run_on_the_software_bus(tmp_path):
 
 LISTENER = """
 import socket, sys, can
-bus = can.Bus(interface="udp_multicast", channel="239.74.163.2", port=int(sys.argv[2]), fd=True)
+bus = can.Bus(interface="udp_multicast", channel=sys.argv[2], port=int(sys.argv[3]), fd=True)
 for option in (socket.SO_RCVBUF, 33):  # as much as everybody may, as much as root may (SO_RCVBUFFORCE)
     try:
         bus._multicast._socket.setsockopt(socket.SOL_SOCKET, option, 32 << 20)

@@ -6,12 +6,13 @@ import os
 import subprocess
 import time
 
+import own_address
 import pytest
 
 from reed_tools import cli
 from reed_tools.paths import PYTHON, ROOT, SCENARIOS
 
-BUS = "udp:239.74.163.2:43978"  # a port of its own: tests run side by side
+BUS = own_address.bus()
 BOOTSTRAP = ROOT / "tools" / "reed"
 FOREIGN = "import sys\nsys.exit('a module of the caller ran')\n"
 

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import time
 
+import own_address
 import pytest
 
 from reed_tools.paths import BUILD, PYTHON, ROOT
@@ -13,7 +14,7 @@ from reed_tools.record.telemetry_log import events
 
 ENVIRONMENT = {**os.environ, "REED_BUILD_DIR": str(BUILD)}
 SHORT = ["--duration", "0.8", "--seed", "77", "--clock", "lockstep"]
-UDP = "udp:239.74.163.2:43983"
+UDP = own_address.bus()
 PROGRAM = BUILD / "bin" / "reed_one_process"
 FIGURES = ("checks", "verdict", "windows", "modes", "parameters", "digest", "cycles", "sim_s", "config_sha256", "missed_cycles", "law")
 

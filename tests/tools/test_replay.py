@@ -11,6 +11,7 @@ import tomllib
 import zlib
 
 import numpy as np
+import own_address
 import pytest
 
 from reed_tools import cli
@@ -22,7 +23,7 @@ from reed_tools.replay import differences
 from reed_tools.replay.player import Changes, replay
 from reed_tools.run import hil, plans, scenario
 
-BUS = "udp:239.74.163.22:43722"
+BUS = own_address.bus()
 SHORT = "scenario.duration_s=0.6"
 # Faults of the bus and the sensor, a law that is caught by the limits, a trip, a switch of the force source, another number of joints.
 RUNS = {

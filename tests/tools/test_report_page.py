@@ -9,6 +9,7 @@ import re
 import chromium
 import lockstep_run
 import numpy as np
+import own_address
 import pytest
 from PIL import Image
 
@@ -18,7 +19,7 @@ from reed_tools.paths import ROOT
 from reed_tools.record import configuration, run_folder, signals, telemetry_log
 from reed_tools.robots import arm_lines
 
-BUS = "udp:239.74.163.27:46427"
+BUS = own_address.bus()
 LOCKED = ROOT / "tools" / "npm-packages.txt"
 MOST_BYTES = 5e6  # of a page of three seconds
 

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 
+import own_address
 import pytest
 
 from reed_tools import cli
@@ -15,7 +16,7 @@ from reed_tools.paths import PYTHON, ROOT
 from reed_tools.record import run_folder
 from reed_tools.run import bus_choice, hil, origin
 
-BUS = "udp:239.74.163.2:43977"  # a port of its own: tests run side by side
+BUS = own_address.bus()
 
 
 def one_line(done, status):

@@ -7,13 +7,14 @@ import time
 from pathlib import Path
 
 import lcm
+import own_address
 import pytest
 import synthetic_run
 
 from reed_tools.machine import spy
 from reed_tools.paths import BUILD
 
-URL = "udpm://239.255.76.67:7977?ttl=0"  # a port of its own: tests run side by side
+URL = own_address.lcm_url()
 CHANNELS = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
             "REED_TIMING": "timing_t", "REED_PLANT": "plant_t"}
 

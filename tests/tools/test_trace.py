@@ -3,6 +3,8 @@
 import json
 from types import SimpleNamespace as Message
 
+import own_address
+
 from reed_tools.record import trace_events
 
 
@@ -37,7 +39,7 @@ def test_misses_late_frames_and_mode_changes_are_instants():
 
 def test_run_trace_writes_a_file_that_perfetto_reads(reed, tmp_path):
     """Its trace event format: an object with traceEvents, each with a name, a phase letter, a process and a thread; times in µs."""
-    done = reed("run", "--trace", "--bus", "udp:239.74.163.2:43979", "--out", tmp_path)
+    done = reed("run", "--trace", "--bus", own_address.bus(), "--out", tmp_path)
     trace = json.loads((tmp_path / "trace.json").read_text())
     events, cycles = trace["traceEvents"], json.loads((tmp_path / "summary.json").read_text())["cycles"]
     assert done.returncode in (0, 1), done.stderr
