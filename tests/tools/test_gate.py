@@ -2,13 +2,16 @@
 
 import json
 import subprocess
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reed_tools import cli
 from reed_tools.errors import UsageError
-from reed_tools.gate import command, commits, corpus, trial, versions_built
+from reed_tools.gate import command, commits, corpus, kept, quick, trial, versions_built
 from reed_tools.paths import BUILD, build
+from reed_tools.record import tape
 from reed_tools.run import joints
 
 BASE, HEAD = "b" * 40, "a" * 40
@@ -155,6 +158,120 @@ def test_bad_input_is_one_line(repository, capsys):
     assert cli.main(["gate", "HEAD~1", "HEAD", "--jobs", "0"]) == 2
     assert cli.main(["gate", "HEAD~1", "HEAD", "--only", "nothing like this"]) == 2
     assert "no tape and no scenario has this in its name" in capsys.readouterr().err
+
+
+def test_the_base_is_where_head_left_main_else_the_commit_before(repository, tmp_path):
+    def git(*words):
+        return subprocess.run(["git", "-C", str(repository), "-c", "user.name=t", "-c", "user.email=t@t", *words], check=True, capture_output=True, text=True).stdout.strip()
+
+    git("branch", "-M", "main")
+    assert commits.last_of_main() == git("rev-parse", "HEAD~1")
+    git("checkout", "-q", "-b", "topic", "HEAD~2")
+    git("commit", "-q", "--allow-empty", "-m", "one")
+    git("commit", "-q", "--allow-empty", "-m", "two")
+    assert commits.last_of_main() == git("rev-parse", "main~2")
+    git("checkout", "-q", "--detach")
+    git("branch", "-D", "main", "topic")
+    assert commits.last_of_main() == git("rev-parse", "HEAD~1"), "no branch at all"
+    git("update-ref", "refs/remotes/origin/main", "HEAD~2")
+    assert commits.last_of_main() == git("rev-parse", "HEAD~2")
+
+
+def test_a_clone_without_a_commit_before_says_so(repository, tmp_path, monkeypatch, capsys):
+    shallow = tmp_path / "shallow"
+    subprocess.run(["git", "clone", "-q", "--depth", "1", f"file://{repository}", str(shallow)], check=True, capture_output=True)
+    monkeypatch.setattr(commits, "ROOT", shallow)
+    assert commits.last_of_main() is None
+    assert cli.main(["gate"]) == 2
+    assert "BASE is missing, and this clone has no commit before HEAD (a shallow clone: `git fetch --deepen 1`)" in capsys.readouterr().err
+    monkeypatch.setattr(quick, "record_all", lambda entries, jobs: {})
+    monkeypatch.setattr(corpus, "load", lambda: corpus.Corpus([], {}, 1.0))
+    assert cli.main(["gate", "--quick"]) == 0
+    assert "not compared with a base: this clone has no commit before HEAD" in capsys.readouterr().out
+
+
+def made(values, extra=(), events=()) -> tape.Tape:
+    """A tape in memory: control.tau of one joint, and further signals."""
+    names = ["num_events", "control.tau", *extra]
+    header = tape.Header({"joints": "1"}, [tape.Field(name, name != "num_events", "f8" if name != "num_events" else "i4", 1) for name in names], "")
+    rows = np.zeros(len(values), header.layout())
+    rows["control.tau"][:, 0] = values
+    rest = [b""] * len(values)
+    for cycle, code in events:
+        rows["num_events"][cycle] = 1
+        rest[cycle] = tape.EVENT.pack(code, 0, 2, 1, 0, 0, 0, 1.0)
+    return tape.Tape(Path("none"), header, rows, rest, True, 0)
+
+
+def test_a_digest_is_of_bits_and_of_the_signals_that_it_names():
+    of = ("control.tau",)
+    first = kept.digest(made([1.0, 0.0]), of)
+    assert first == kept.digest(made([1.0, 0.0], extra=["control.later"]), of), "a new signal is no change"
+    others = [made([1.0, -0.0]), made([1.0]), made([np.nextafter(1.0, 2.0), 0.0]), made([1.0, 0.0], events=[(1, 7)]), made([1.0, 0.0], events=[(1, 8)])]
+    assert len({first, *(kept.digest(one, of) for one in others)}) == 6
+    with pytest.raises(kept.Gone, match="control.s"):
+        kept.digest(made([1.0]), ("control.s",))
+
+
+def test_what_is_written_is_read_again():
+    tapes = {("tape", "a"): made([1.0], extra=["control.later"]), ("tape", "b"): made([2.0]), ("scenario", "a"): made([3.0])}
+    written = kept.of_tapes(tapes)
+    assert written.signals == ("control.tau",) and kept.parse(written.text(), "here") == written
+    assert kept.differences(written, tapes) == ([], [])
+    tapes |= {("tape", "b"): made([2.5]), ("scenario", "new"): made([1.0])}
+    assert kept.differences(written, tapes) == ([("tape", "b")], [("scenario", "new")])
+    with pytest.raises(UsageError, match="here: .*`tools/reed gate --write` makes it anew"):
+        kept.parse("signals = 1", "here")
+
+
+@pytest.fixture
+def by_digests(monkeypatch, capsys):
+    """by_digests(before, now, declared): --quick where the base and this checkout keep these tapes' digests, and the programs make `ran`."""
+    def call(before, now, ran, declared=(), *words):
+        entry = corpus.Entry("a", "joints2")
+        monkeypatch.setattr(corpus, "load", lambda: corpus.Corpus([entry], {}, 0.1))
+        monkeypatch.setattr(commits, "last_of_main", lambda: BASE)
+        monkeypatch.setattr(commits, "resolve", lambda name: HEAD)
+        monkeypatch.setattr(commits, "declared", lambda base, head: list(declared))
+        monkeypatch.setattr(kept, "of_commit", lambda commit: before and kept.of_tapes({("tape", "a"): before}))
+        monkeypatch.setattr(kept, "of_checkout", lambda: kept.of_tapes({("tape", "a"): now}))
+        monkeypatch.setattr(quick, "record_all", lambda entries, jobs: {("tape", "a"): ran})
+        monkeypatch.setattr(corpus, "lacks", lambda tapes, coverage: [])
+        status = cli.main(["gate", "--quick", *words])
+        said = capsys.readouterr()
+        assert not said.err, said.err
+        return status, said.out
+
+    return call
+
+
+def test_quick_says_same_or_wants_a_declaration(by_digests):
+    one, other = made([1.0]), made([2.0])
+    assert by_digests(one, one, one) == (0, f"same as {BASE[:12]}: 1 digests\n")
+    status, said = by_digests(one, other, other)
+    assert status == 1 and f"changed since {BASE[:12]}: tape a\n" in said and "no commit since then says `changes-control: why`" in said
+    status, said = by_digests(one, other, other, ["more damping"])
+    assert status == 0 and "declared: more damping" in said
+    status, said = by_digests(one, one, other, ["more damping"])
+    assert status == 1 and "config/gate/digests.toml is not of this checkout: tape a" in said, "declared, but the file is the old one"
+    status, said = by_digests(None, one, one)
+    assert status == 0 and f"not compared with a base: {BASE[:12]} keeps no digests" in said
+    status, said = by_digests(one, other, other, [], "--json")
+    found = json.loads(said)
+    assert status == 1 and [row["tape"] for row in found["changed"]] == ["a"] and set(found) >= {"base", "head", "tapes", "scenarios", "declared"}
+
+
+def test_quick_and_write_are_of_the_whole_corpus(capsys):
+    for words in (["--quick", "HEAD~1", "HEAD"], ["--quick", "--only", "x"], ["--write", "HEAD"], ["--write", "--quick"]):
+        assert cli.main(["gate", *words]) == 2
+        assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_this_checkout_keeps_a_digest_of_every_tape():
+    """Those of scenarios are renewed with the next change of behaviour; `tools/reed test gate` compares them all."""
+    own = kept.of_checkout()
+    assert set(own.digests["tape"]) == {entry.name for entry in corpus.load().tapes}
+    assert set(own.digests["scenario"]) and "control.tau" in own.signals
 
 
 def test_a_list_that_cannot_be_read_is_one_line(tmp_path):

@@ -19,7 +19,7 @@ ARROWS = {
     "compare": {"figures", "record", "show"},
     "live": {"record", "robots", "run"},
     "replay": {"law", "record", "run", "show"},
-    "gate": {"record", "replay", "robots", "show"},
+    "gate": {"record", "replay", "robots", "run", "show"},
     "export": {"record", "robots", "run"},
     "arms": {"record", "robots", "show"},
     "scenarios": {"record", "robots", "run"},

@@ -7,23 +7,28 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from reed_tools.errors import UsageError
-from reed_tools.gate import commits, corpus, trial, versions_built
+from reed_tools.gate import commits, corpus, kept, quick, trial, versions_built
 from reed_tools.show import tables
 from reed_tools.text import plain
 
 MOST_ROWS = 40  # on the terminal; --json has all
 EXAMPLE = """examples:
+  tools/reed gate                     # the commit checked out against the last of main
   tools/reed gate HEAD~1              # the last commit against the one before
   tools/reed gate main my-branch      # a branch, before it is merged
   tools/reed gate v0.2 --only wall    # only tapes and scenarios with this in their names
+  tools/reed gate --quick             # this checkout against the digests that the last commit of main keeps: seconds
 
-a commit that is to change behaviour says so in its message: `changes-control: why`"""
+a commit that is to change behaviour says so in its message: `changes-control: why`, and renews the
+digests: tools/reed gate --write"""
 
 
 def add_arguments(parser) -> None:
-    parser.add_argument("base", metavar="BASE", help="commit whose behaviour is the measure")
+    parser.add_argument("base", nargs="?", metavar="BASE", help="commit whose behaviour is the measure; default: the last of main, before HEAD")
     parser.add_argument("head", nargs="?", metavar="HEAD", help="commit that is judged; default: the one checked out")
     parser.add_argument("--only", default="", metavar="TEXT", help="tapes and scenarios with this in their names; coverage is not asserted")
+    parser.add_argument("--quick", action="store_true", help=f"this checkout against the digests that BASE keeps in {kept.PATH}; nothing of BASE is built")
+    parser.add_argument("--write", action="store_true", help=f"write {kept.PATH} of this checkout")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), metavar="N", help="at the same time; default: one per core")
     parser.add_argument("--json", action="store_true", help="print {base, head, tapes, scenarios, changed: [{tape, signal, first_cycle, largest}], declared}")
 
@@ -31,7 +36,11 @@ def add_arguments(parser) -> None:
 def run(arguments) -> int:
     if arguments.jobs < 1:
         raise UsageError(f"--jobs {arguments.jobs}: allowed: 1 or more")
-    base = commits.resolve(arguments.base)
+    if arguments.quick or arguments.write:
+        return by_kept_digests(arguments)
+    base = commits.resolve(arguments.base) if arguments.base else commits.last_of_main()
+    if base is None:
+        raise UsageError(f"BASE is missing, and {commits.NO_BASE}")
     if arguments.head is None:
         commits.require_clean()
     head = commits.resolve(arguments.head or "HEAD")
@@ -43,7 +52,7 @@ def run(arguments) -> int:
     joints = joints_of([*tapes, *scenarios], known)
     programs = [versions_built.programs(commit, joints) for commit in (base, head)]
     results = try_all(*programs, tapes, scenarios, arguments.jobs)
-    lacking = [] if arguments.only else coverage_lacks(results, known.coverage)
+    lacking = [] if arguments.only else corpus.lacks([result.recorded for result in results if result.recorded is not None], known.coverage)
     declared = commits.declared(base, head)
     changed = [(result, one) for result in results for one in result.changed]
     if arguments.json:
@@ -51,6 +60,13 @@ def run(arguments) -> int:
     else:
         show(results, changed, declared, lacking)
     return 1 if lacking or (changed and not declared) else 0
+
+
+def by_kept_digests(arguments) -> int:
+    if arguments.head or arguments.only or (arguments.write and (arguments.base or arguments.quick or arguments.json)):
+        raise UsageError("--quick takes BASE, --jobs and --json, and --write takes --jobs: both are of the whole corpus and of this checkout")
+    known = corpus.load()
+    return quick.write(known, arguments.jobs) if arguments.write else quick.run(known, arguments.base, arguments.jobs, arguments.json)
 
 
 def joints_of(entries: list[corpus.Entry], known: corpus.Corpus) -> list[int]:
@@ -67,14 +83,6 @@ def try_all(base: Path, head: Path, tapes: list[corpus.Entry], scenarios: list[c
 
     with ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, [*((trial.open_loop, entry) for entry in tapes), *((trial.closed_loop, entry) for entry in scenarios)]))
-
-
-def coverage_lacks(results: list[trial.Result], coverage: dict[str, list]) -> list[str]:
-    seen = corpus.Seen()
-    for result in results:
-        if result.recorded is not None:
-            seen.add(result.recorded)
-    return seen.lacks(coverage)
 
 
 def as_json(base, head, tapes, scenarios, changed, declared, lacking) -> dict:

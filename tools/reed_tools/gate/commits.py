@@ -6,6 +6,8 @@ import subprocess
 from reed_tools.errors import UsageError
 from reed_tools.paths import ROOT
 
+MAIN = ("origin/main", "main")  # the first that is there and is another commit
+NO_BASE = "this clone has no commit before HEAD (a shallow clone: `git fetch --deepen 1`)"
 DECLARATION = re.compile(r"^changes-control:[ \t]*(\S.*)$", re.IGNORECASE | re.MULTILINE)
 
 
@@ -22,6 +24,17 @@ def resolve(name: str) -> str:
     if done.returncode:
         raise UsageError(f"`{name}` is no commit of {ROOT}; allowed: a hash, a branch, a tag or HEAD~N (`git fetch` brings those of others)")
     return done.stdout.strip()
+
+
+def last_of_main() -> str | None:
+    """Where HEAD left main; on main itself the commit before HEAD. None where the clone does not reach that far."""
+    head = resolve("HEAD")
+    for name in MAIN:
+        found = git("merge-base", name, "HEAD")
+        if found.returncode == 0 and found.stdout.strip() not in ("", head):
+            return found.stdout.strip()
+    before = git("rev-parse", "--verify", "--quiet", "HEAD^1^{commit}")
+    return before.stdout.strip() if before.returncode == 0 else None
 
 
 def require_clean() -> None:

@@ -1,6 +1,7 @@
 """What both versions are shown: config/gate/corpus.toml, and whether its tapes hold all that it promises."""
 
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -43,6 +44,10 @@ class Corpus:
     tapes: list[Entry]
     coverage: dict[str, list]
     longest_s: float  # of a scenario
+
+    def entries(self) -> list[tuple[str, Entry]]:
+        """All, with their kind."""
+        return [*(("tape", entry) for entry in self.tapes), *(("scenario", entry) for entry in scenarios(self.longest_s))]
 
 
 def read_toml(path: Path) -> dict:
@@ -94,3 +99,10 @@ class Seen:
     def lacks(self, coverage: dict[str, list]) -> list[str]:
         """In words, what is promised and was not seen."""
         return [f"{kind} {value}" for kind, values in coverage.items() for value in values if value not in getattr(self, kind)]
+
+
+def lacks(tapes: Iterable[Tape], coverage: dict[str, list]) -> list[str]:
+    seen = Seen()
+    for tape in tapes:
+        seen.add(tape)
+    return seen.lacks(coverage)

@@ -1,7 +1,7 @@
 """tools/reed test: every test there is. The bootstrap has built everything before this starts.
 
 A filter selects by name: FILTER… runs every test whose name contains one of them, and the stages of that name
-(layout, tidy, asan, tsan). Without a filter clang-tidy reads the files that changed last; `test tidy` reads all."""
+(layout, tidy, gate, asan, tsan). Without a filter clang-tidy reads the files that changed last; `test tidy` reads all."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("--ci", action="store_true", help="a test that is skipped fails, but for those that a machine's kernel or rights decide "
                                                           "(tools/reed_tools/testing/skips.py)")
     parser.add_argument("filters", nargs="*", metavar="FILTER",
-                        help="only tests whose name contains one of these, or a stage: layout, tidy, asan, tsan")
+                        help="only tests whose name contains one of these, or a stage: layout, tidy, gate, asan, tsan")
 
 
 def run(arguments) -> int:

@@ -7,7 +7,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from reed_tools.paths import BUILD, ROOT
+from reed_tools.paths import BUILD, PYTHON, ROOT
 from reed_tools.run import bus_choice, vm
 
 CORES = len(os.sched_getaffinity(0))
@@ -45,7 +45,9 @@ def all_stages(filters: list[str]) -> list[Stage]:
     if wanted("tidy"):
         stages.append(tidy(everything="tidy" in filters))
     stages += [sanitizer(name) for name in SANITIZED if wanted(name)]
-    names = [text for text in filters if text not in ("layout", "tidy", *SANITIZED)]
+    if wanted("gate"):
+        stages.append(gate())
+    names = [text for text in filters if text not in ("layout", "tidy", "gate", *SANITIZED)]
     if names or not filters:
         stages += [ctest(names, socketcan=False), ctest(names, socketcan=True), pytest(names)]
     return [stage for stage in stages if stage]
@@ -60,6 +62,12 @@ def changed_last(files: list[str]) -> list[str]:
     """Those of `files` that differ from the commit before the last one."""
     done = subprocess.run(["git", "diff", "--name-only", "HEAD~1"], cwd=ROOT, capture_output=True, text=True)
     return [name for name in files if name in set(done.stdout.split())]
+
+
+def gate() -> Stage:
+    """Against the last commit of main, by the digests that it keeps."""
+    command = [*PYTHON, str(ROOT / "tools" / "reed_tools" / "__main__.py"), "gate", "--quick"]
+    return Stage("gate: behaviour against the last commit of main", command, re.compile("."))
 
 
 def layout() -> Stage:
