@@ -48,7 +48,7 @@ void Fields(V& v, Joint& c) {
 /// What one may know of it, but for its joints, bodies and parameters.
 template <typename V>
 void ArmFields(V& v, ArmDescription& c) {
-  v.Text("name", c.name, "of the arm");
+  v.Text("name", c.name, "of the arm; absent: the file's name");
   v.Vector("gravity", c.gravity_mps2, {"m/s²", -30.0, 30.0},
            "world frame, magnitude 0 or 1.5 ... 30 m/s²: a vector in m/s² and not in units of g");
   v.PerJoint("rotor_inertia_reflected", c.rotor_inertia_kgm2, {"kg·m²", 1e-6, 100.0},

@@ -135,7 +135,9 @@ ArmDescription ReadArm(const Document& doc, toml::table& table, const std::strin
 
 ArmDescription LoadArm(const std::string& name_or_path) {
   Document doc = Document::Load(FindConfig("arms", name_or_path));
-  return ReadArm(doc, doc.root(), "");
+  ArmDescription arm = ReadArm(doc, doc.root(), "");
+  if (arm.name.empty()) arm.name = doc.stem();
+  return arm;
 }
 
 }  // namespace reed

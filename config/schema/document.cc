@@ -119,13 +119,16 @@ std::vector<std::string> SplitPath(const std::string& dotted) {
   return parts;
 }
 
-/// A key in an error line: what is wrong with it stays in the line, however long it is.
-std::string Short(const std::string& key) {
-  if (key.size() <= kLongestName) return key;
+/// No longer than a name may be.
+std::string Cut(const std::string& text) {
+  if (text.size() <= kLongestName) return text;
   std::size_t end = kLongestName;
-  while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xC0U) == 0x80U) --end;  // not inside a letter
-  return key.substr(0, end) + " ...";
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a letter
+  return text.substr(0, end);
 }
+
+/// A key in an error line: what is wrong with it stays in the line, however long it is.
+std::string Short(const std::string& key) { return key.size() <= kLongestName ? key : Cut(key) + " ..."; }
 
 }  // namespace
 
@@ -148,6 +151,8 @@ Document Document::Load(const std::string& path) {
   }
   return doc;
 }
+
+std::string Document::stem() const { return Cut(std::filesystem::path(path_).stem().string()); }
 
 void Document::Graft(const std::string& section, Document&& other) {
   root_.insert_or_assign(section, std::move(other.root_));

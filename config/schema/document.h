@@ -28,6 +28,8 @@ class Document {
 
   toml::table& root() { return root_; }
   const std::string& path() const { return path_; }
+  /// The file's name without folder and ending, as long as a name may be: what a scenario or an arm without a name is called.
+  std::string stem() const;
 
   /// Throws ConfigError "file:line: key: problem".
   [[noreturn]] void Fail(const toml::node* where, const std::string& key, const std::string& problem) const;

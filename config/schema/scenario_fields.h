@@ -243,7 +243,7 @@ void Fields(V& v, CheckConfig& c) {
 
 template <typename V>
 void ScenarioFields(V& v, Scenario& c) {
-  v.Text("name", c.name, "of the scenario");
+  v.Text("name", c.name, "of the scenario; absent: the file's name");
   v.Text("description", c.description, "one sentence");
   v.Number("duration_s", c.duration_s, {"s", 0.01, 3600}, "from the moment the arm is active");
   v.Seed("seed", c.seed, "of every random number in the run");

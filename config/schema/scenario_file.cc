@@ -83,7 +83,9 @@ void ResolveArm(Document& doc, const std::string& wanted) {
     if (wanted.empty()) doc.Fail(node, "arm", error.what());
     throw ConfigError(std::string("--arm ") + wanted + ": " + error.what());
   }
-  doc.Graft("arm", Document::Load(path));
+  Document arm = Document::Load(path);
+  if (!arm.root().contains("name")) arm.root().insert("name", arm.stem());
+  doc.Graft("arm", std::move(arm));
 }
 
 void RefuseUnknownSections(Document& doc) {
@@ -153,6 +155,7 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   Reader head(doc, Section(doc, "scenario"), "scenario");
   ScenarioFields(head, s);
   head.RefuseUnknown();
+  if (s.name.empty()) s.name = doc.stem();
   s.arm = ReadArm(doc, *Section(doc, "arm"), "arm");
   ReadSection(doc, "plant", s.plant);
   ReadSection(doc, "drives", s.drives);

@@ -529,3 +529,14 @@ def test_a_wall_beside_the_plane_of_a_planar_arm_is_refused():
 
 def test_a_mass_too_small_for_its_inertia_is_refused_before_it_is_written():
     assert "body 7: mass 1e-09 kg is too small for its inertia" in refused("--config", "joints7", "--set", "arm.bodies.6.mass=1e-9")
+
+
+def test_what_has_no_name_has_its_files(tmp_path):
+    (tmp_path / "my_arm.toml").write_text(changed(ARM, 'name = "a5"\n', ""))
+    for stem, name in (("my_press", "my_press"), ("é" * 80, "é" * 50)):  # as long as a name may be, in bytes
+        nameless = tmp_path / f"{stem}.toml"
+        nameless.write_text(re.sub(r'^(name|arm) = .*\n', "", SCENARIO, count=2, flags=re.M).replace("[scenario]", 'arm = "my_arm.toml"\n\n[scenario]', 1))
+        out = tmp_path / "effective.toml"
+        assert run("--config", str(nameless), "--write", str(out)) == (0, "")
+        effective = tomllib.loads(out.read_text())
+        assert (effective["scenario"]["name"], effective["arm"]["name"]) == (name, "my_arm")

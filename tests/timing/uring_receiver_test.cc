@@ -127,7 +127,8 @@ TEST_F(UringTest, ADatagramThatIsTooLongIsCutAndSaysSo) {
 }
 
 TEST(UdpByUring, SendsAndReceivesFramesAndNeverItsOwn) {
-  const UdpAddress own{"239.74.163.2", static_cast<std::uint16_t>(20000 + getpid() % 20000)};  // of this process alone
+  const UdpAddress own{"239.74.163.2",
+                       static_cast<std::uint16_t>(20000 + getpid() % 20000)};  // of this process alone
   UdpTransport a(own), b(own);
   if (!a.ReceiveOnThisThread()) GTEST_SKIP() << "no io_uring here";
   Frame frame{0x101, 16, {}};
