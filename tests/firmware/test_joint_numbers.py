@@ -1,4 +1,4 @@
-"""The same templates run arms of two, six and seven joints: each scenario once, in lockstep, with its checks as the check."""
+"""The same templates run arms of two, six and seven joints: each scenario once, in lockstep, with its checks as the verdict."""
 
 import json
 import os
@@ -21,4 +21,4 @@ def test_an_arm_runs_within_its_scenarios_checks_with_joints(joints, tmp_path):
                           env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert summary["dof"] == joints and summary["check"] == "pass" and summary["sim_s"] > 3.0
+    assert summary["dof"] == joints and summary["verdict"] == "pass" and summary["sim_s"] > 3.0
