@@ -1,12 +1,11 @@
-// The laws (22)-(41) of a case, by the functions that the loop calls. RT: set-up only.
+// The laws (22)-(41) of a case: what the Controller decides in its state, and the equations that a case asks for apart.
+// RT: set-up only.
 #pragma once
 
 #include "reed/core/contact/force_loop.h"
-#include "reed/core/contact/normal_direction.h"
 #include "reed/core/law/known_force.h"
-#include "reed/core/law/surface.h"
 #include "reed/core/law/unknown_force.h"
-#include "reed/inspect/rigid_cases.h"
+#include "reed/inspect/controller_cycle.h"
 
 namespace reed::inspect {
 
@@ -24,18 +23,18 @@ void InspectControl(const Arm<N>& arm, const NamedValues& in, NamedValues& out) 
   constexpr int P = kMaxParameters;
   if (!in.HasAll("dq", "q_d", "dq_d", "ddq_d")) return;
   const int n = arm.num_parameters;
-  const model::Vec<N> K_d = in.Vector<N>("Kd"), dq = in.Vector<N>("dq");
-  model::Kinematics<N> kin;
-  model::ForwardKinematics<N>(arm, in.Vector<N>("q"), dq, kin);
-  out.SetMatrix("J_world", kin.J);
-
-  const control::Reference<N> reference{in.Vector<N>("q_d"), in.Vector<N>("dq_d"), in.Vector<N>("ddq_d")};
-  const auto aux = control::Surface<N>(reference, in.Vector<N>("Lambda"), kin.q, dq);
-  const model::Vec<N> s = control::SlidingError<N>(aux.v, dq);
+  const model::Vec<P> p_hat = in.Has("p_hat") ? Padded(in, "p_hat", n) : model::Vec<P>(model::Vec<P>::Zero());
+  const ControllerCycle<N> cycle(arm, in, p_hat);
+  const strategy::Decision<N>& decision = cycle.decision();
+  const control::Auxiliary<N>& aux = decision.aux;
+  const model::Vec<N>& s = decision.s;
   out.SetVector("v", aux.v);
   out.SetVector("vdot", aux.v_dot);
   out.SetVector("s", s);
 
+  model::Kinematics<N> kin;
+  model::ForwardKinematics<N>(arm, in.Vector<N>("q"), in.Vector<N>("dq"), kin);
+  out.SetMatrix("J_world", kin.J);
   model::Regressor<N, P> regressor;
   model::ComputeRegressor(arm, kin, aux.v, aux.v_dot, regressor);
   const model::Vec<P> Yts = regressor.Y.transpose() * s;
@@ -49,22 +48,21 @@ void InspectControl(const Arm<N>& arm, const NamedValues& in, NamedValues& out) 
 
   if (in.HasAll("eta_hat", "sigma0", "sigma1")) {
     // The case leaves out what the law adds to the paper's: K_d s and p_0 (zero here), and has sgn for sat.
-    const model::Vec<P> p_hat =
+    const model::Vec<P> p_worst =
         control::WorstCaseParameters<P>(model::Vec<P>::Zero(), Padded(in, "eta_hat", n), control::Sign(Yts));
     const model::Vec<N> sliding = control::SlidingTerm<N>(in.Scalar("sigma0"), in.Scalar("sigma1"),
                                                           model::Vec<N>::Ones(), s, control::Sign(s));
     out.SetVector("U_unknown",
-                  control::UnknownForceTorque<N>(arm.rotor_inertia, aux.v_dot, regressor.f(p_hat),
+                  control::UnknownForceTorque<N>(arm.rotor_inertia, aux.v_dot, regressor.f(p_worst),
                                                  model::Vec<N>::Zero(), s, sliding));
   }
   if (!in.Has("normal")) return;
-  const auto normal = control::PureNormalTranslation<N>(kin.J, in.Vector<3>("normal"));
+  const control::NormalDirection<N>& normal = decision.normal;
   out.SetVector("D_oblique", normal.D);
   if (in.HasAll("F_d_normal", "p_hat")) {
+    // The case presses without the force loop: the desired force of (32) comes to the torque, and v stays.
     const model::Vec<N> JtF_d = normal.J_n.transpose() * in.Scalar("F_d_normal");
-    out.SetVector("U_known",
-                  control::KnownForceTorque<N>(arm.rotor_inertia, aux.v_dot,
-                                               regressor.f(Padded(in, "p_hat", n)), JtF_d, K_d, s));
+    out.SetVector<N>("U_known", decision.tau_law - JtF_d);
   }
   if (in.HasAll("e_f", "int_e_f", "kp", "ki")) {
     // The filter of the force loop at rest: z is what the force error asks for.
