@@ -2,6 +2,7 @@
 
 import json
 import math
+import subprocess
 import time
 from types import SimpleNamespace
 
@@ -104,6 +105,14 @@ def test_the_picture_holds_ratios_and_growth(tmp_path):
     assert plot.draw(found, "a machine", tmp_path / "bench.png")
     assert (tmp_path / "bench.png").read_bytes().startswith(b"\x89PNG")
     assert not plot.draw(Found(), "a machine", tmp_path / "none.png")
+
+
+def test_what_is_built_first_is_said_beside_standard_output(monkeypatch, capsys):
+    """Standard output may be JSON."""
+    monkeypatch.setattr(programs.subprocess, "run", lambda *_, **__: subprocess.CompletedProcess([], 0, stdout="[1/2]"))
+    programs.build("reed_law_budget")
+    said = capsys.readouterr()
+    assert said.out == "" and said.err == "  building reed_law_budget\n"
 
 
 @pytest.mark.parametrize("argv, told", [

@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +21,7 @@ def build(*targets: str) -> None:
     """Says so first: some of them take minutes."""
     if "no work to do" in subprocess.run(["ninja", "-C", str(BUILD), "-n", *targets], capture_output=True, text=True, errors="replace").stdout:
         return
-    print(f"  building {' '.join(targets)}", flush=True)
+    print(f"  building {' '.join(targets)}", file=sys.stderr, flush=True)  # standard output may be --json
     done = subprocess.run(["ninja", "-C", str(BUILD), *targets], capture_output=True, text=True, errors="replace")
     if done.returncode:
         raise RunError(f"{' '.join(targets)} did not build: {done.stdout[-WRITES_LAST:]}")

@@ -3,6 +3,7 @@
 import fcntl
 import re
 import subprocess
+import sys
 import time
 
 from reed_tools.errors import RunError
@@ -26,11 +27,11 @@ def need(number: int, target: str = "reed_firmware") -> None:
         fcntl.flock(lock, fcntl.LOCK_EX)  # two runs at once: one builds, the other waits
         if number in built():
             return
-        print(f"  building the controller for {number} joints ", end="", flush=True)
+        print(f"  building the controller for {number} joints ", end="", file=sys.stderr, flush=True)
         started = time.monotonic()
         wanted = ";".join(map(str, sorted(built() | {number})))
         done = subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), f"-DREED_JOINTS={wanted}"], capture_output=True, text=True)
         if done.returncode:
             raise RunError(f"the controller for {number} joints could not be configured: {done.stderr.strip()[-300:]}")
         build(target)
-        print(f"{time.monotonic() - started:6.1f} s", flush=True)
+        print(f"{time.monotonic() - started:6.1f} s", file=sys.stderr, flush=True)
