@@ -9,12 +9,10 @@
 #include "reed/config/schema/plausibility.h"
 #include "reed/config/schema/rule_context.h"
 #include "reed/config/schema/text_limits.h"
+#include "reed/law_names/law_names.h"
 
 namespace reed {
 namespace {
-
-constexpr const char* kLaws[] = {
-    "separated", "pd", "pd_tuned", "computed_torque", "fixed_nominal", "paper_printed", "paper_corrected"};
 
 class Rules : public RuleContext {
  public:
@@ -73,7 +71,7 @@ class Rules : public RuleContext {
   }
 
   void LawIsKnown() const {
-    const std::vector<std::string> laws(std::begin(kLaws), std::end(kLaws));
+    const std::vector<std::string> laws(strategy::kLawNames.begin(), strategy::kLawNames.end());
     if (std::find(laws.begin(), laws.end(), s_.control.law) != laws.end()) return;
     Fail("control.law", "'" + s_.control.law + "' is unknown; " + Allowed(s_.control.law, laws));
   }

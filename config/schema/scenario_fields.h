@@ -4,6 +4,7 @@
 
 #include "reed/config/schema/bound.h"
 #include "reed/config/schema/scenario.h"
+#include "reed/law_names/law_names.h"
 #include "reed_layout.h"
 
 namespace reed {
@@ -152,8 +153,7 @@ void Fields(V& v, ForceConfig& c) {
 
 template <typename V>
 void Fields(V& v, ControlConfig& c) {
-  v.Text("law", c.law,
-         "separated | pd | pd_tuned | computed_torque | fixed_nominal | paper_printed | paper_corrected");
+  v.Text("law", c.law, strategy::kLawChoices);
   v.Numbers("K_d", c.K_d, {"N·m·s/rad", 0, 1e4},
             "gain on s (31), per joint; needed. How to choose it: below");
   v.Numbers("Lambda", c.Lambda, {"1/s", 0, 500},

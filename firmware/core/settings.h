@@ -5,10 +5,10 @@
 #include "reed/core/contact/force_mode.h"
 #include "reed/core/contact/force_source.h"
 #include "reed/core/law/gains.h"
-#include "reed/core/law/law_names.h"
 #include "reed/core/model/arm_model.h"
 #include "reed/core/reference/force_profile.h"
 #include "reed/core/safety/limits.h"
+#include "reed/law_names/law_names.h"
 
 namespace reed {
 

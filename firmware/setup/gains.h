@@ -6,7 +6,7 @@
 
 #include "reed/config/controller/controller_config.h"
 #include "reed/core/law/gains.h"
-#include "reed/core/law/law_names.h"
+#include "reed/core/law/law_bank.h"
 
 namespace reed::strategy {
 
@@ -80,9 +80,9 @@ Gains<N, P> GainsFrom(const ControlConfig& c, const NominalArm& description, con
   g.K_o = c.observer_gain;
   internal::Friction(description, c, arm, g);
   g.subtract_observer = c.observer;
-  const bool paper = law == LawId::kPaperPrinted || law == LawId::kPaperCorrected;
-  if (paper || law == LawId::kPd) internal::PaperFeedback(g);
-  if (paper) internal::PaperAdaptation(arm, g);
+  const GainSet gains = LawBank<N, P>::Get(law).gains;
+  if (gains != GainSet::kScenario) internal::PaperFeedback(g);
+  if (gains == GainSet::kPaper) internal::PaperAdaptation(arm, g);
   return g;
 }
 

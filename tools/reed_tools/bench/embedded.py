@@ -25,7 +25,7 @@ MACHINE = ["-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]
 COMMON = ["-std=c++20", "-O2", "-DNDEBUG", *SAME_BITS, "-DEIGEN_DONT_VECTORIZE", "-isystem", "/usr/include/eigen3"]
 BARE = ["-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-fno-use-cxa-atexit", "-ffunction-sections", "-fdata-sections"]
 SOURCES = ["embedded/target/run_loop.cc", "bus/codec/messages.cc", "bus/codec/e2e_profile5.cc"]
-ROOMS = ["reed_core", "reed_math", "reed_law_interface", "reed_frame", "reed_codec", "reed_embedded", "reed_sizes"]
+ROOMS = ["reed_core", "reed_math", "reed_law_interface", "reed_law_names", "reed_frame", "reed_codec", "reed_embedded", "reed_sizes"]
 # What must not be in a program without heap, exceptions, RTTI or locks.
 FORBIDDEN = re.compile(r"malloc|calloc|realloc|\b_?free\b|operator new|operator delete|_sbrk|__cxa_throw|__cxa_allocate|_Unwind_(Raise|Resume)|"
                        r"__gxx_personality|__dynamic_cast|typeinfo|pthread|mutex")
