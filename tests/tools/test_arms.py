@@ -8,11 +8,10 @@ import tomllib
 import numpy as np
 import pinocchio as pin
 import pytest
-from imported import BODY, ENDLESS, ROBOTS, imported, pinocchio_of, text_of
+from imported import BODY, ROBOTS, imported, pinocchio_of, text_of
 
 from reed_tools import cli
 from reed_tools.arms import arm_file, check, export_urdf, picture, serial, urdf
-from reed_tools.errors import UsageError
 from reed_tools.robots import nominal, pseudo_inertia, regressor
 from reed_tools.robots.chain import rpy_of, turn_of_z
 from reed_tools.robots.joint_frames import rotation_rpy
@@ -95,13 +94,18 @@ ARM = """<robot name="two"><link name="base"/>
 BRANCH = '<link name="camera"/><joint name="mount" type="fixed"><parent link="one"/><child link="camera"/></joint></robot>'
 
 
-def refusal(tmp_path, text, tip=None, base=None, limits=None):
-    path = tmp_path / "robot.urdf"
-    path.write_text(text)
-    with pytest.raises(UsageError) as raised:
-        serial.serial_of(urdf.read(path), base, tip, limits or {})
-    assert "\n" not in str(raised.value)
-    return str(raised.value)
+@pytest.fixture
+def refusal(tmp_path, capsys):
+    """The line that `arm import` refuses a URDF with; nothing is written."""
+    def line(text, tip=None, base=None, limits=()):
+        path = tmp_path / "robot.urdf"
+        path.write_text(text)
+        given = [word for option, value in (("--tip", tip), ("--base", base), *(("--limit", entry) for entry in limits)) if value for word in (option, value)]
+        assert reed("arm", "import", path, "--out", tmp_path / "arm.toml", *given) == 2
+        out, err = capsys.readouterr()
+        assert out == "" and len(err.splitlines()) == 1 and not (tmp_path / "arm.toml").exists()
+        return err
+    return line
 
 
 @pytest.mark.parametrize("old, new, said", [
@@ -128,20 +132,21 @@ def refusal(tmp_path, text, tip=None, base=None, limits=None):
     ('parent link="base"', 'parent link="two"', "form a loop"),
     ('<robot name="two">', '<sdf>', "is no XML"),
 ])
-def test_what_cannot_be_an_arm_is_refused_by_name(tmp_path, old, new, said):
+def test_what_cannot_be_an_arm_is_refused_by_name(refusal, old, new, said):
     assert old in ARM
-    assert said in refusal(tmp_path, ARM.replace(old, new))
+    assert said in refusal(ARM.replace(old, new))
 
 
-def test_links_without_mass_and_wrong_names_are_refused(tmp_path):
+def test_links_without_mass_and_wrong_names_are_refused(refusal):
     bare = re.sub(r'(<link name="two">).*?(</link>)', r"\1\2", ARM)
-    assert "link two and what is fixed to it have no mass" in refusal(tmp_path, bare)
-    assert "--tip nobody: " in refusal(tmp_path, ARM, tip="nobody")
-    assert "link one is not behind link two" in refusal(tmp_path, ARM, tip="one", base="two")
-    assert "--limit j3: no joint of the chain; allowed: j1, j2" in refusal(tmp_path, ARM, limits={"j3": ENDLESS})
+    assert "link two and what is fixed to it have no mass" in refusal(bare)
+    assert "--tip nobody: " in refusal(ARM, tip="nobody")
+    assert "link one is not behind link two" in refusal(ARM, tip="one", base="two")
+    assert "--limit j3: no joint of the chain; allowed: j1, j2" in refusal(ARM, limits=["j3=-3,3"])
+    assert "no tip" in refusal('<robot name="one"><link name="base"/></robot>')
     many = "".join(f'<link name="l{k}"/><joint name="x{k}" type="revolute"><parent link="{"two" if k == 0 else f"l{k - 1}"}"/><child link="l{k}"/>'
                    '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>' for k in range(7))
-    assert "9 joints between base and tip; allowed: 1 ... 8" in refusal(tmp_path, ARM.replace("</robot>", many + "</robot>"))
+    assert "9 joints between base and tip; allowed: 1 ... 8" in refusal(ARM.replace("</robot>", many + "</robot>"))
 
 
 def test_masses_of_what_is_fixed_or_held_are_not_lost(tmp_path):

@@ -9,8 +9,9 @@ from reed_tools.robots import arm_lines, joint_frames, rigid_arm
 
 ROWS = made_arm("rows", 61, [0.4, -1.1, 2.3])
 ROWS["dh"] = [[*row, 0.3 * i - 0.8] for i, row in enumerate(ROWS["dh"])]
-ROWS["tool_offset"] = ROWS.pop("tool_offset_in_last_frame")  # as effective.toml of older runs calls it
-ARMS = {"chain": made_chain(5, 3), "rows": ROWS}
+OLDER = {**ROWS, "tool_offset": ROWS["tool_offset_in_last_frame"]}  # as effective.toml of older runs calls it
+del OLDER["tool_offset_in_last_frame"]
+ARMS = {"chain": made_chain(5, 3), "rows": ROWS, "older": OLDER}
 
 
 def placement(xyz, rpy):
@@ -26,7 +27,7 @@ def model_of(arm):
     for i, (link, body) in enumerate(zip(links, arm["bodies"])):
         parent = model.addJoint(parent, pin.JointModelRZ(), link, f"joint{i}")
         model.appendBodyToJoint(parent, pin.Inertia(body["mass"], np.array(body["com"]), np.array(body["inertia_about_com"])), pin.SE3.Identity())
-    tool = pin.SE3(np.eye(3), np.array(arm["tool"]["xyz_m"] if "tool" in arm else arm["tool_offset"]))
+    tool = pin.SE3(np.eye(3), np.array(arm["tool"]["xyz_m"] if "tool" in arm else ROWS["tool_offset_in_last_frame"]))
     return model, model.addFrame(pin.Frame("tool", parent, 0, tool, pin.FrameType.OP_FRAME))
 
 

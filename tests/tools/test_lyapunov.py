@@ -9,7 +9,7 @@ from synthetic_signals import ARM, constant, run
 
 from reed_tools.figures import lyapunov
 from reed_tools.paths import ROOT
-from reed_tools.robots import rigid_arm
+from reed_tools.robots import chain, rigid_arm
 
 CASES = ROOT / "tests" / "data" / "cases"
 
@@ -45,7 +45,7 @@ def test_another_truth_moves_bodies_and_friction():
     np.testing.assert_allclose(rigid_arm.mass_matrix(half, q), 0.5 * rigid_arm.mass_matrix(ARM, q), atol=1e-12)
     np.testing.assert_allclose(rigid_arm.viscous_friction(half), 0.5 * rigid_arm.viscous_friction(ARM))
     heavier = rigid_arm.true_arm({"arm": ARM, "plant": {"p_true": [*ARM["p_true"][:5], 0.8]}})
-    J_v, J_w = rigid_arm.jacobians(rigid_arm.poses(ARM, q), 4, [0.0, 0.0, 0.0])
+    J_v, J_w = chain.jacobians(rigid_arm.poses(ARM, q), 4, [0.0, 0.0, 0.0])
     hand = 0.3 * (np.swapaxes(J_v, 1, 2) @ J_v + 0.00064 * np.swapaxes(J_w, 1, 2) @ J_w)
     np.testing.assert_allclose(rigid_arm.mass_matrix(heavier, q) - rigid_arm.mass_matrix(ARM, q), hand, atol=1e-12)
     assert rigid_arm.true_arm({"arm": ARM, "plant": {}}) is ARM

@@ -3,8 +3,10 @@
 import json
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from built import reed
+from imported import BODY, ROBOTS, imported, pinocchio_of, text_of
 
 from reed_tools.robots import nominal, rigid_arm
 from reed_tools.scenarios import gains, pose
@@ -64,5 +66,23 @@ def test_the_start_keeps_its_distance(tmp_path):
     weight = np.abs(gains.gravity_torque(arm, found.q[None])[0])
     assert (weight < 0.5 * arm.torque_limit).all()
     assert np.abs(found.slide[2]) < 1e-9 and max(map(abs, found.slide)) > 0.005
-    there = pose.follow(arm.chain, found.q, np.array(found.slide))
+    there = pose.follow(arm.chain, found.q, np.array(found.slide), found.q)
     assert np.allclose(pose.origins(arm.chain, there[None])[0][0, -1], found.tip + found.slide, atol=1e-6)
+
+
+@pytest.mark.parametrize("name, force_N", [("jaco", 0.0), ("so100", 8.0)])
+def test_a_slide_keeps_the_speed_limits_of_joints_that_hold_the_orientation(name, force_N, tmp_path):
+    """A step along the slide's path by Pinocchio's Jacobian of all six directions; these wrists were too fast for a slide that was
+    judged by its positions alone."""
+    path = tmp_path / f"{name}.urdf"
+    path.write_text(text_of(name))
+    chain, arm = imported(path, *ROBOTS[name][1:])
+    found = pose.find(arm, np.array([0.0, 0.0, 1.0]), force_N, 0.02)
+    model = pinocchio_of(path.read_text(), chain)
+    data, frame = model.createData(), model.getFrameId(chain.tip, BODY)
+    for share in np.linspace(-1, 1, 5):
+        q = pose.follow(arm.chain, found.q, share * np.array(found.slide), found.q)
+        J = pin.computeFrameJacobian(model, data, pin.integrate(model, pin.neutral(model), q), frame, pin.LOCAL_WORLD_ALIGNED)
+        along = pin.SE3(data.oMf[model.getFrameId(chain.base, BODY)]).rotation @ np.array(found.slide)
+        speed = np.linalg.solve(J, [*(2 * np.pi * pose.FREQUENCY_HZ * along), 0, 0, 0])
+        assert (np.abs(speed) < 1.1 * pose.SPEED * arm.speed_limit).all()

@@ -9,7 +9,7 @@ import numpy as np
 from reed_tools.errors import UsageError
 from reed_tools.paths import program
 from reed_tools.robots import nominal
-from reed_tools.robots.chain import Chain, turned
+from reed_tools.robots.chain import Chain, frames_of
 from reed_tools.show.drawing import STYLE, plt
 
 AXES = ("#D55E00", "#009E73", "#0072B2")  # x, y, z
@@ -19,13 +19,9 @@ SAG_DRAWN = 0.12  # of the arm's size: what the largest displacement is drawn as
 
 def frames(chain: Chain, q: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """Rotation and origin of the base, of every link and of the tool."""
-    R, p = np.eye(3), np.zeros(3)
-    found = [(R, p)]
-    for joint in range(chain.dof):
-        p = p + R @ chain.offset[joint]
-        R = R @ turned(chain, joint, q[joint:joint + 1])[0]
-        found.append((R, p))
-    return [*found, (R @ chain.tool_rotation, p + R @ chain.tool_offset)]
+    at = frames_of(chain, q[None])
+    links = list(zip(at.R[:, 0], at.p[:, 0]))
+    return [(np.eye(3), np.zeros(3)), *links, (at.R[-1, 0] @ chain.tool_rotation, at.tool(chain)[0])]
 
 
 def pose_of(text: str | None, arm: nominal.NominalArm) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from reed_tools.errors import UsageError
 from reed_tools.record import run_folder
 from reed_tools.record.signals import ACTIVE
-from reed_tools.record.telemetry_log import load
+from reed_tools.record.telemetry_log import Recording, load
 from reed_tools.robots import nominal
 
 FREE_N = 1.0      # a larger normal force is contact
@@ -42,13 +42,15 @@ def stretches(cycle: np.ndarray, angle: np.ndarray, torque: np.ndarray, period_s
 
 def of_run(folder: Path) -> list[Stretch]:
     run_folder.require_unchanged(folder)
-    recording = load(*run_folder.logs(folder))
+    return of_recording(load(*run_folder.logs(folder)), table_of(folder, "timing")["rate_hz"], bool(table_of(folder, "wall").get("present")))
+
+
+def of_recording(recording: Recording, rate_hz: float, has_wall: bool) -> list[Stretch]:
     measured, control = recording.tables["REED_MEASURED"], recording.tables["REED_CONTROL"]
     free = control["mode"] == ACTIVE
-    if table_of(folder, "wall").get("present"):
+    if has_wall:
         free &= (control["f_d"] == 0) & (np.abs(control["f"]) < FREE_N)
     rows = np.isin(measured["cycle"], control["cycle"][free]) & (measured["age"] == 0).all(axis=1)
-    rate_hz = table_of(folder, "timing")["rate_hz"]
     return stretches(measured["cycle"][rows], measured["position"][rows], measured["torque"][rows], 1 / rate_hz)
 
 

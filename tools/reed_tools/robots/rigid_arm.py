@@ -1,44 +1,14 @@
 """The arm's rigid model for many poses at once, from the [arm] table alone: body by body with M = Σ m JᵥᵀJᵥ + JᵤᵀIJᵤ,
 a route of its own beside the firmware's. q: [n, dof], rad; T_i = T(mount) Rz(θ) Tz(d)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from reed_tools.robots.chain import chain_of, turned
+from reed_tools.robots.chain import Frames, chain_of, frames_of, jacobians
 from reed_tools.robots.joint_frames import dof
 
 
-@dataclass
-class Poses:
-    """Link frames in world axes, [dof, n, …]."""
-
-    R: np.ndarray  # [dof, n, 3, 3]
-    p: np.ndarray  # [dof, n, 3], m
-
-
-def poses(arm: dict, q: np.ndarray) -> Poses:
-    R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
-    rotations, origins = [], []
-    chain = chain_of(arm)
-    for joint in range(chain.dof):
-        p = p + R @ chain.offset[joint]
-        R = R @ turned(chain, joint, q[:, joint])
-        rotations.append(R)
-        origins.append(p)
-    return Poses(np.array(rotations), np.array(origins))
-
-
-def jacobians(at: Poses, body: int, offset) -> tuple[np.ndarray, np.ndarray]:
-    """J_v, J_w of a point fixed to a link, each [n, 3, dof]. offset: m, axes of that link."""
-    dof, count = at.p.shape[:2]
-    point = at.p[body] + at.R[body] @ np.asarray(offset)
-    J_v, J_w = np.zeros((count, 3, dof)), np.zeros((count, 3, dof))
-    for joint in range(body + 1):
-        axis = at.R[joint][:, :, 2]
-        J_w[:, :, joint] = axis
-        J_v[:, :, joint] = np.cross(axis, point - at.p[joint])
-    return J_v, J_w
+def poses(arm: dict, q: np.ndarray) -> Frames:
+    return frames_of(chain_of(arm), q)
 
 
 def tip_jacobian(arm: dict, q: np.ndarray) -> np.ndarray:
@@ -46,8 +16,7 @@ def tip_jacobian(arm: dict, q: np.ndarray) -> np.ndarray:
 
 
 def tip(arm: dict, q: np.ndarray) -> np.ndarray:
-    at = poses(arm, q)
-    return at.p[-1] + at.R[-1] @ chain_of(arm).tool_offset
+    return poses(arm, q).tool(chain_of(arm))
 
 
 def mass_matrix(arm: dict, q: np.ndarray) -> np.ndarray:

@@ -14,13 +14,15 @@ PRESS_SLIDE, FREE_SLIDE = 0.025, 0.05  # amplitude as a share of the reach, abov
 LARGEST_SLIDE_m = 0.02
 FORCE_LIMIT = (60.0, 2.5)      # N, and times the desired force: contact force that trips
 LOOP_CHECKS = """[[checks]]
+name = "torque_ripple_percent_last_second"   # more is an oscillation
+limit = 2.0
+[[checks]]
 name = "faults"
 limit = 0
 [[checks]]
 name = "heap_allocations"
 limit = 0
 """
-
 
 
 def press(arm: NominalArm, arm_file: str, force_N: float) -> str:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reed_tools.errors import UsageError
-from reed_tools.robots.chain import Chain, turned
+from reed_tools.robots.chain import Chain, frames_of, jacobians
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.scenarios import gains
 
@@ -20,6 +20,8 @@ FREQUENCY_HZ = 0.5    # of the slide
 SPEED = 0.3           # share of the speed limits that it may take
 SLIDE_WEAKEST = 0.3   # it has a share of the directions in which the arm moves with that share of its best
 BEYOND = 1.5          # times its amplitude is within limits, too
+PATH = 9              # samples of its path
+SHORTEST = 0.4        # of the amplitude asked for: a slide that joints' speeds make shorter is none
 NEWTON, DAMPING, LONGEST_STEP_rad = 60, 1e-3, 0.2
 USED = 0.02           # a direction counts if the arm reaches that share of its largest speed there
 
@@ -33,16 +35,8 @@ class Pose:
 
 def origins(chain: Chain, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Origins of the links' frames and of the tool, [n, dof + 1, 3], and the tool point's Jacobians, [n, 3, dof]."""
-    R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
-    points, axes = [], []
-    for joint in range(chain.dof):
-        p = p + R @ chain.offset[joint]
-        R = R @ turned(chain, joint, q[:, joint])
-        points.append(p)
-        axes.append(R[:, :, 2])
-    tip = p + R @ chain.tool_offset
-    J = np.stack([np.cross(axis, tip - point) for axis, point in zip(axes, points)], axis=2)
-    return np.stack([*points, tip], axis=1), J
+    at = frames_of(chain, q)
+    return np.concatenate([at.p, at.tool(chain)[None]]).swapaxes(0, 1), jacobians(at, chain.dof - 1, chain.tool_offset)[0]
 
 
 def reach_of(chain: Chain) -> float:
@@ -98,23 +92,38 @@ def slide(arm: NominalArm, q: np.ndarray, J: np.ndarray, rank: int, amplitude_m:
     if np.abs(direction).max() < 0.1:
         direction = used[:, 0]
     direction = direction / np.abs(direction).max()
-    speed = np.abs(np.linalg.pinv(J, rcond=0.05) @ (2 * np.pi * FREQUENCY_HZ * amplitude_m * direction))
-    amplitude = np.round(amplitude_m * min(1.0, float(np.min(SPEED * arm.speed_limit / np.maximum(speed, 1e-9)))) * direction, 4) + 0.0
+    steps = BEYOND * np.linspace(-1.0, 1.0, PATH)
+    there = path(arm.chain, q, np.outer(steps, amplitude_m * direction))
+    if there is None:
+        return None
     room = arm.position_max - arm.position_min
-    for way in (-1.0, 1.0):
-        for step in np.linspace(0.25, 1.0, 4):
-            q_there = follow(arm.chain, q, way * step * BEYOND * amplitude)
-            if q_there is None or (np.minimum(q_there - arm.position_min, arm.position_max - q_there) < 0.5 * LEAST_ROOM * room).any():
-                return None
-            if np.linalg.svd(origins(arm.chain, q_there[None])[1][0], compute_uv=False)[rank - 1] < LEAST_GAIN * reach_of(arm.chain):
-                return None
-    return amplitude.tolist()
+    if (np.minimum(there - arm.position_min, arm.position_max - there) < 0.5 * LEAST_ROOM * room).any():
+        return None
+    if np.linalg.svd(origins(arm.chain, there)[1], compute_uv=False)[:, rank - 1].min() < LEAST_GAIN * reach_of(arm.chain):
+        return None
+    speed = 2 * np.pi * FREQUENCY_HZ * (np.abs(np.diff(there, axis=0)) / np.diff(steps)[:, None]).max(axis=0)
+    share = min(1.0, float(np.min(SPEED * arm.speed_limit / np.maximum(speed, 1e-9))))
+    return (np.round(amplitude_m * share * direction, 4) + 0.0).tolist() if share > SHORTEST else None
 
 
-def follow(chain: Chain, q: np.ndarray, by: np.ndarray) -> np.ndarray | None:
-    """Angles nearby with the tool point displaced and the orientation kept as far as the joints allow, as the path planner
-    finds them: position first, orientation in what is left. None where it does not get there."""
-    R_start, start, _, _ = tip_frame(chain, q)
+def path(chain: Chain, q: np.ndarray, by: np.ndarray) -> np.ndarray | None:
+    """Angles at each displacement of the tool point, from the middle one outwards; None where one is not reached."""
+    middle = len(by) // 2
+    found: list[np.ndarray | None] = [None] * len(by)
+    found[middle] = q
+    for step in (1, -1):
+        for k in range(middle + step, len(by) if step > 0 else -1, step):
+            found[k] = follow(chain, q, by[k], found[k - step])
+            if found[k] is None:
+                return None
+    return np.array(found)
+
+
+def follow(chain: Chain, q_start: np.ndarray, by: np.ndarray, near: np.ndarray) -> np.ndarray | None:
+    """Angles near `near` with the tool point of q_start displaced and its orientation kept as far as the joints allow, as the path
+    planner finds them: position first, orientation in what is left. None where it does not get there."""
+    R_start, start, _, _ = tip_frame(chain, q_start)
+    q = near
     for _ in range(NEWTON):
         R, tip, J, J_w = tip_frame(chain, q)
         rest = start + by - tip
@@ -131,14 +140,9 @@ def follow(chain: Chain, q: np.ndarray, by: np.ndarray) -> np.ndarray | None:
 
 def tip_frame(chain: Chain, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The tool point's rotation and place, J_v and J_w."""
-    R, p, points, axes = np.eye(3), np.zeros(3), [], []
-    for joint in range(chain.dof):
-        p = p + R @ chain.offset[joint]
-        R = R @ turned(chain, joint, q[joint:joint + 1])[0]
-        points.append(p)
-        axes.append(R[:, 2])
-    tip = p + R @ chain.tool_offset
-    return R, tip, np.cross(axes, tip - np.array(points)).T, np.array(axes).T
+    at = frames_of(chain, q[None])
+    J_v, J_w = jacobians(at, chain.dof - 1, chain.tool_offset)
+    return at.R[-1, 0], at.tool(chain)[0], J_v[0], J_w[0]
 
 
 def clearance(points: np.ndarray, normal: np.ndarray, reach: float) -> np.ndarray:
