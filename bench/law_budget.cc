@@ -153,7 +153,8 @@ bool InChild(const char* proof, Steps&& steps) {
   if (line != std::string::npos)
     std::snprintf(g_offender.data(), g_offender.size(), "%s", report.c_str() + line + 1);
   if (!whole && report.empty())
-    report = WIFSIGNALED(status) ? std::string("signal ") + strsignal(WTERMSIG(status)) : "the process ended";
+    report =
+        WIFSIGNALED(status) ? std::string("signal ") + sigdescr_np(WTERMSIG(status)) : "the process ended";
   Print(proof, whole ? 0 : 1, whole ? "" : report.substr(0, line));
   return whole;
 }

@@ -60,6 +60,7 @@ inline Joint JointOf(const DhRow& row) {
 
 inline std::vector<Joint> JointsOf(const std::vector<DhRow>& rows) {
   std::vector<Joint> joints;
+  joints.reserve(rows.size());
   for (const DhRow& row : rows) joints.push_back(JointOf(row));
   return joints;
 }

@@ -7,7 +7,7 @@
 namespace reed::model {
 
 template <typename T, int N>
-class FixedArray {
+class FixedArray {  // NOLINT(bugprone-reserved-identifier): in the copy that the compiler writes
  public:
   T& operator[](int i) {
     assert(0 <= i && i < N);
