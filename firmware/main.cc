@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "options.h"
+#include "reed/bus/codec/reed_codec.h"
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/controller/load_controller_config.h"
 #include "reed/firmware/program/control.h"
@@ -24,7 +25,8 @@ int Run(const Options& options) {
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
   if (options.control.clock == rt::ClockKind::kLockstep) RefuseLockstepOnRealDrives(*transport);
   if (options.control.host_pause) RefuseHostPauseOnRealDrives(*transport);
-  RefuseSecondController(*transport);
+  bus::ReedControllerCodec listener;
+  RefuseSecondController(*transport, listener);
   return ControlArm(options.control, scenario, tape ? TextOf(scenario) : std::string(), loop, *transport);
 }
 

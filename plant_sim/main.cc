@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "options.h"
+#include "reed/bus/codec/reed_codec.h"
 #include "reed/bus/transport/open_transport.h"
 #include "reed/config/description/cores.h"
 #include "reed/config/plant/load_plant_config.h"
@@ -66,7 +67,8 @@ int Run(const Options& options) {
   const std::atomic<bool>& stop_wanted = rt::StopFlag();
   FlexibleArmBody body(config);
   const std::unique_ptr<bus::Transport> transport = bus::OpenTransport(options.bus);
-  RefuseSecondArm(*transport);
+  bus::ReedControllerCodec listener;
+  RefuseSecondArm(*transport, listener);
   Publisher publisher(
       {options.log, options.lcm, !options.quiet, realtime ? WhenFull::kDrop : WhenFull::kWait, &stop_wanted});
   rt::HostPauseWatch watch;

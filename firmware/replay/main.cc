@@ -7,6 +7,7 @@
 
 #include "options.h"
 #include "player.h"
+#include "reed/bus/codec/reed_codec.h"
 #include "reed/config/controller/load_controller_config.h"
 #include "reed/config/description/config_error.h"
 #include "reed/firmware/cycle/make_cycle.h"
@@ -39,7 +40,8 @@ int Run(const ReplayOptions& options) {
   telemetry::SnapshotRing ring(4);
   Player player(reader, ring, out);
   TapeClock clock(player);
-  TapeTransport bus(player);
+  bus::ReedControllerCodec codec;
+  TapeTransport bus(player, codec);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(config, bus, reader.header().enable, plugin != nullptr ? &plugin->law() : nullptr);
   TapedCycle taped(*cycle, player, bus);

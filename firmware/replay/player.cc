@@ -59,7 +59,7 @@ void TapeTransport::Load() {
   player_.now().ForEachFrame([this](const telemetry::RecordedFrame& one) {
     if (one.direction != telemetry::Direction::kReceived) return;
     frames_.push_back(one);
-    if (decoder_.Decode(one.frame).reject == bus::Reject::kUnknownId) ++unknown_ids_;
+    if (codec_.Read(one.frame).reject == bus::Reject::kUnknownId) ++unknown_ids_;
   });
   const telemetry::BusCounters& then = player_.now().bus;
   const auto counter = [](std::int64_t value) { return static_cast<std::uint64_t>(value); };

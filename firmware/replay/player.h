@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reed/bus/codec/messages.h"
+#include "reed/bus/codec/codec.h"
 #include "reed/bus/transport/transport.h"
 #include "reed/firmware/cycle/cycle_base.h"
 #include "reed/firmware/snapshot/snapshot_ring.h"
@@ -66,7 +66,9 @@ static_assert(rt::InstantClock<TapeClock>);
 /// The bus of then. What is sent goes nowhere but into the record.
 class TapeTransport final : public bus::Transport {
  public:
-  explicit TapeTransport(const Player& player) noexcept : player_(player) {}
+  /// codec: finds the frames that only a reader of the protocol knows to be nobody's.
+  TapeTransport(const Player& player, bus::ControllerCodec& codec) noexcept
+      : player_(player), codec_(codec) {}
 
   /// One batch, as it came: frames that were read together have one time.
   int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override;
@@ -84,7 +86,7 @@ class TapeTransport final : public bus::Transport {
   std::vector<telemetry::RecordedFrame> frames_;
   std::size_t next_ = 0;
   bus::TransportCounters counters_;
-  bus::Decoder decoder_;  // finds the frames that only a decoder knows to be nobody's
+  bus::ControllerCodec& codec_;
   std::int64_t unknown_ids_ = 0;
 };
 

@@ -67,11 +67,11 @@ void RefuseHostPauseOnRealDrives(const bus::Transport& transport) {
                              transport.kind() + ":" + transport.interface());
 }
 
-void RefuseSecondController(bus::Transport& transport) {
+void RefuseSecondController(bus::Transport& transport, bus::ControllerCodec& codec) {
   const auto of_a_controller = [](bus::MessageKind kind) {
     return kind == bus::MessageKind::kSync || kind == bus::MessageKind::kCommand;
   };
-  if (bus::Hears(transport, of_a_controller))
+  if (bus::Hears(transport, codec, of_a_controller))
     throw BusError("another controller already sends on " + transport.kind() + ":" + transport.interface() +
                    "; stop it, or choose another bus with --bus");
 }

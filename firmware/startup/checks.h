@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "reed/bus/codec/codec.h"
 #include "reed/bus/transport/transport.h"
 #include "reed/config/controller/controller_config.h"
 #include "reed/rt/program.h"
@@ -26,7 +27,7 @@ void RefuseLockstepOnRealDrives(const bus::Transport& transport);
 void RefuseHostPauseOnRealDrives(const bus::Transport& transport);
 
 /// Listens for a moment; throws BusError when somebody already sends SYNC or COMMAND here.
-void RefuseSecondController(bus::Transport& transport);
+void RefuseSecondController(bus::Transport& transport, bus::ControllerCodec& codec);
 
 /// The bus is there but not usable: exit status 3.
 class BusError : public rt::Failure {

@@ -8,11 +8,11 @@ namespace reed::plant {
 
 /// Listens for a moment, before this plant answers anybody; throws rt::Failure when a joint or a wrist answers here: the
 /// controller would take whose frame comes first.
-inline void RefuseSecondArm(bus::Transport& transport) {
+inline void RefuseSecondArm(bus::Transport& transport, bus::ControllerCodec& codec) {
   const auto of_an_arm = [](bus::MessageKind kind) {
     return kind == bus::MessageKind::kJointState || kind == bus::MessageKind::kWrench;
   };
-  if (bus::Hears(transport, of_an_arm))
+  if (bus::Hears(transport, codec, of_an_arm))
     throw rt::Failure("another arm already answers on " + transport.kind() + ":" + transport.interface() +
                           "; end it, or choose another bus with --bus",
                       rt::kDied);

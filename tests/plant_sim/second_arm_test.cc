@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reed/bus/codec/reed_codec.h"
 #include "reed/tests/support/fake_transport.h"
 
 namespace reed::plant {
@@ -14,14 +15,15 @@ class SecondArm : public ::testing::Test {
 
   test::FakeWire wire_;
   bus::FrameEncoder others_;
+  bus::ReedControllerCodec codec_;
 };
 
 TEST_F(SecondArm, IsRefusedWhereAJointOrAWristAnswers) {
   Put(others_.JointState(3, {}));
-  EXPECT_THROW(RefuseSecondArm(wire_.plant), rt::Failure);
+  EXPECT_THROW(RefuseSecondArm(wire_.plant, codec_), rt::Failure);
   Put(others_.Wrench({}));
   try {
-    RefuseSecondArm(wire_.plant);
+    RefuseSecondArm(wire_.plant, codec_);
     FAIL();
   } catch (const rt::Failure& failure) {
     EXPECT_EQ(failure.status(), rt::kDied);
@@ -35,7 +37,7 @@ TEST_F(SecondArm, MayStartWhereOnlyAControllerSpeaks) {
   bus::Frame damaged = others_.JointState(0, {});
   damaged.data[0] ^= 1U;
   Put(damaged);
-  EXPECT_NO_THROW(RefuseSecondArm(wire_.plant));
+  EXPECT_NO_THROW(RefuseSecondArm(wire_.plant, codec_));
 }
 
 }  // namespace
