@@ -245,13 +245,12 @@ def test_decoding_at_once_equals_the_generated_classes(tmp_path):
 
 
 def test_a_log_of_two_different_arms_is_refused():
-    from reed_tools.errors import RunError
     from reed_tools.record.message_layout import joined
     import reed
 
     one, two = reed.adaptation_t(), reed.adaptation_t()
     two.num, two.p_hat, two.eta_hat = 1, [1.0], [1.0]
-    with pytest.raises(RunError, match="not of one run"):
+    with pytest.raises(UsageError, match="not of one run"):
         joined("adaptation_t", [np.frombuffer(message.encode(), np.uint8)[np.newaxis] for message in (one, two)])
 
 

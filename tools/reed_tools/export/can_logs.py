@@ -39,7 +39,8 @@ def frames(file, name: str):
     try:
         yield from can.CanutilsLogReader(lines)
     except (ValueError, IndexError, OverflowError):
-        raise UsageError(f"{name}:{lines.number}: is no line of candump -L: {lines.text.strip()[:60]!r}") from None
+        raise UsageError(f"{name}:{lines.number}: is no line of candump -L: {lines.text.strip()[:60]!r}; "
+                         "allowed: bus.candump as a run or `candump -L` writes it") from None
 
 
 def write(candump: Path, kind: str, target: Path) -> list[Path]:

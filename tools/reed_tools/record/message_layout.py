@@ -3,7 +3,7 @@ the generated classes need half a minute for them, this needs a tenth of a secon
 
 import numpy as np
 
-from reed_tools.errors import RunError
+from reed_tools.errors import UsageError
 from reed_tools.paths import ROOT
 from reed_tools.record import lcm_file
 from reed_tools.record.lcm_file import Field
@@ -31,7 +31,7 @@ def joined(type_name: str, blocks: list[np.ndarray]) -> np.ndarray:
     """All messages of one channel, [messages, bytes]."""
     odd = next((block for block in blocks if block.shape[1] != blocks[0].shape[1]), None)
     if odd is not None:
-        raise RunError(f"{type_name}: a message of {odd.shape[1]} bytes among messages of {blocks[0].shape[1]}; the log is not of one run")
+        raise UsageError(f"{type_name}: a message of {odd.shape[1]} bytes among messages of {blocks[0].shape[1]}; the log is not of one run")
     return np.concatenate(blocks) if blocks else np.empty((0, 0), np.uint8)
 
 
@@ -42,9 +42,10 @@ def decode_all(message_class, type_name: str, messages: np.ndarray) -> dict[str,
     first = messages[0].tobytes()
     fingerprint = message_class._get_packed_fingerprint()
     if first[:8] != fingerprint:
-        raise RunError(f"{type_name}: the log was written with another version of this message than lcmtypes/{type_name}.lcm")
+        raise UsageError(f"{type_name}: the log was written with another version of this message than lcmtypes/{type_name}.lcm; "
+                         "read it with the Reed that wrote it: `commit` in the folder's run.json")
     layout = record_type(type_name, message_class.decode(first))
     if messages.shape[1] != layout.itemsize or not np.all(messages[:, :8] == np.frombuffer(fingerprint, np.uint8)):
-        raise RunError(f"{type_name}: messages of {messages.shape[1]} bytes, not all of {layout.itemsize}; the log is not of one run")
+        raise UsageError(f"{type_name}: messages of {messages.shape[1]} bytes, not all of {layout.itemsize}; the log is not of one run")
     records = messages.reshape(-1).view(layout)
     return {name: records[name].astype(layout[name].base.newbyteorder("=")) for name in message_class.__slots__}

@@ -88,9 +88,9 @@ def verify(folder: Path) -> None:
     for name in RECORDS:
         found = folder / name
         if name not in known and name in (CONFIGURATION, TELEMETRY):
-            raise UsageError(f"{path} is damaged: it has no line for {name}; nothing was changed")
+            raise UsageError(f"{path} is damaged: it has no line for {name}; nothing was changed; {telemetry_log.RESTORE}")
         if found.is_file() and name in known and sum_of(found) != known[name]:
-            raise UsageError(f"{found} is damaged: its SHA-256 is not the one in {SUMS}; nothing was changed")
+            raise UsageError(f"{found} is damaged: its SHA-256 is not the one in {SUMS}; nothing was changed; {telemetry_log.RESTORE}")
 
 
 def require_unchanged(folder: Path) -> None:

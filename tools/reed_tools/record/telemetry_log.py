@@ -19,6 +19,7 @@ TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAP
           "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t", "REED_LAW": "law_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t",
            "REED_HISTOGRAM": "histogram_t", "REED_LAW_NAMES": "law_names_t"}
+RESTORE = "restore it from a copy, or run again: `command` in the folder's run.json"
 LEAST_BYTES = 16     # of a message of ours: fingerprint and utime
 HEAD = struct.Struct(">8xqq")  # after the type's fingerprint: utime, cycle
 
@@ -87,7 +88,7 @@ def require_whole(path: Path) -> None:
     """A log that was cut or damaged reads as another run."""
     read, size = sum(event.size for event in event_file.read(path)), path.stat().st_size
     if read != size or not size:
-        raise UsageError(f"{path} is damaged: whole messages make up {read} of its {size} bytes; nothing was changed")
+        raise UsageError(f"{path} is damaged: whole messages make up {read} of its {size} bytes; nothing was changed; {RESTORE}")
 
 
 def load(*paths: Path) -> Recording:
@@ -122,4 +123,5 @@ def decoded(decode, channel: str, *what):
     try:
         return decode(*what)
     except (ValueError, struct.error, IndexError, MemoryError):  # UnicodeDecodeError is a ValueError
-        raise RunError(f"a message of {channel} cannot be read: the log is damaged, or was written with other message types") from None
+        raise UsageError(f"a message of {channel} cannot be read: the log is damaged, or was written with other message types; "
+                         "read it with the Reed that wrote it: `commit` in the folder's run.json") from None
