@@ -85,8 +85,8 @@ HUES = {  # what a pixel of each is, however the page fades in
 
 
 def assert_drawn(page, target):
-    """Arm, wall, force arrow and curves are there, by their colours."""
-    end = time.monotonic() + 40
+    """Arm, wall, force arrow and curves are there, by their colours. A rasteriser in software fades them in as the machine has time."""
+    end = time.monotonic() + 150
     while True:
         picture = page.picture(target)
         seen = {}
@@ -117,5 +117,5 @@ def best_rate_hz(page):
     return max(rates, default=0.0)
 
 
-def text(page, wanted, patience_s=40):
+def text(page, wanted, patience_s=90):
     page.until(f"document.body.innerText.includes({wanted!r})", patience_s)

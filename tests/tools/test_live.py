@@ -166,6 +166,12 @@ def test_words_name_limits_bus_faults_and_the_state():
     event = reed.event_t()
     event.text = "a <b>bold</b> event"
     moment.events = [event]
+    changed = reed.event_t()
+    changed.text, changed.code, changed.mode, changed.joint, changed.cycle = "mode changed", 1, 2, -1, 66
+    tripped = reed.event_t()
+    tripped.text, tripped.code, tripped.joint, tripped.cycle = "joint speed above its limit, rad/s", 33, 1, 70
+    assert words.event_line(changed) == "<div>cycle 66: mode changed: active</div>"
+    assert words.event_line(tripped).endswith("cycle 70: joint speed above its limit, rad/s, joint 2</div>")
     assert "<b>" not in words.page_text(moment, "") and "&lt;b&gt;bold" in words.page_text(moment, "")
 
 

@@ -1,13 +1,14 @@
 """tools/reed paper: phases, windows and comparison on synthetic runs, the cache with stand-ins, and one small real run."""
 
 import html.parser
+import json
 import re
 
 import numpy as np
 import pytest
 import synthetic_signals as synthetic
 
-from reed_tools import paths
+from reed_tools import cli, paths
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
 from reed_tools.paper import catalogue, command, page, phases, runs
@@ -131,6 +132,22 @@ def test_the_page_has_a_panel_per_figure_every_law_and_needs_nothing_from_outsid
         assert (tmp_path / f"figure{figure}.png").stat().st_size > 5000
     for experiment in catalogue.everything():
         assert experiment.law in text
+
+
+def test_json_has_the_last_second_of_every_experiment(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(command, "CACHE", tmp_path / "cache")
+    monkeypatch.setattr(runs, "run_all", lambda *_: some_results())
+    monkeypatch.setattr(page, "write", lambda folder, results: folder / "paper.html")
+    assert cli.main(["paper", "--json", "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr()
+    found = json.loads(said.out)
+    assert found["page"] == str(tmp_path / "out" / "paper.html") and len(found["experiments"]) == len(catalogue.everything())
+    rows = {(row["experiment"], row["law"]): row for row in found["experiments"]}
+    pd = next(row for (group, law), row in rows.items() if group == "known" and law == "PD(10,5)")
+    assert round(pd["joint_rms_mrad"], 6) == 5.0 and pd["stopped_at_s"] is None
+    printed = next(row for row in found["experiments"] if row["stopped_at_s"] is not None)
+    assert printed["joint_rms_mrad"] is None and abs(printed["stopped_at_s"] - 0.7) < 0.01
+    assert "last second, 2-3 s" in said.err and "stopped at 0.70 s" in said.err
 
 
 def test_experiments_have_names_of_their_own_and_sound_configurations(tmp_path):

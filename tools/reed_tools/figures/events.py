@@ -3,8 +3,7 @@
 import math
 
 from reed_tools.figures import metrics
-from reed_tools.record.event_names import name_of, stops_the_arm
-from reed_tools.record.signals import MODES, SOURCES
+from reed_tools.record.event_names import in_text, name_of, stops_the_arm
 from reed_tools.record.telemetry_log import Recording
 
 UNITS = ("N", "N·m", "N·m/s", "rad", "rad/s", "m/s", "cycles")
@@ -19,16 +18,6 @@ def of_run(recording: Recording, rate_hz: float) -> list[dict]:
              "joint": message.joint if message.joint >= 0 else None,
              "value": message.value if math.isfinite(message.value) else None, "from": CHANNELS[channel], "text": in_text(message)}
             for cycle, channel, message in sorted(found, key=lambda entry: entry[0])]
-
-
-def in_text(message) -> str:
-    """What became of it is said where the event only says that something changed."""
-    name = name_of(message.code)
-    if name == "mode_change":
-        return f"{message.text}: {MODES[message.mode]}"
-    if name == "force_source_change":
-        return f"{message.text}: {SOURCES[message.force_source]}"
-    return message.text
 
 
 def reason(events: list[dict]) -> dict | None:

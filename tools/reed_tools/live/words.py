@@ -3,6 +3,7 @@
 from html import escape
 
 from reed_tools.live.moment import Moment
+from reed_tools.record.event_names import in_text
 from reed_tools.record.signals import FAULT, MODES, SOURCES
 from reed_tools.text import plain
 
@@ -45,7 +46,8 @@ def drives(moment: Moment) -> str:
 
 def event_line(event) -> str:
     style = ' style="color:#b00020"' if event.mode == FAULT else ""
-    return f"<div{style}>cycle {event.cycle}: {escape(plain(event.text))}</div>"
+    joint = f", joint {event.joint + 1}" if event.joint >= 0 else ""
+    return f"<div{style}>cycle {event.cycle}: {escape(plain(in_text(event)))}{joint}</div>"
 
 
 def page_text(moment: Moment, state: str) -> str:

@@ -1,5 +1,7 @@
 """Names of the events that both programs report, by their fixed number: firmware's reason.h, the plant's records.h."""
 
+from reed_tools.record.signals import MODES, SOURCES
+
 FIRST_TRIP, FIRST_LIMIT = 32, 96  # codes between them stop the arm
 NAMES = {
     0: "none", 1: "mode_change", 2: "force_source_change", 3: "contact", 4: "drive_state", 5: "phase_budget", 6: "cycles_missed", 7: "collision",
@@ -21,3 +23,9 @@ def name_of(code: int) -> str:
 
 def stops_the_arm(code: int) -> bool:
     return FIRST_TRIP <= code < FIRST_LIMIT
+
+
+def in_text(message) -> str:
+    """Of an event_t. What became of it is said where the event only says that something changed."""
+    became = {"mode_change": f": {MODES[message.mode]}", "force_source_change": f": {SOURCES[message.force_source]}"}.get(name_of(message.code), "")
+    return message.text + became
