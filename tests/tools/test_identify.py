@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from built import reed
+from pinocchio_chain import chain_model
 
 from reed_tools.errors import UsageError
 from reed_tools.identify import base, excite, feasible, filtering, least_squares, samples, write
@@ -38,16 +39,9 @@ def found(runs):
     return json.loads(done("identify", runs / "run1", "--check", runs / "run2", "--write", runs / "identified.toml", "--json"))
 
 
-def pinocchio_model(arm):
-    model, parent = pin.Model(), 0
-    model.gravity.linear = arm.chain.gravity
-    for joint in range(arm.dof):
-        parent = model.addJoint(parent, pin.JointModelRZ(), pin.SE3(arm.chain.rotation[joint], arm.chain.offset[joint]), f"joint{joint + 1}")
-    return model, model.createData()
-
-
 def pinocchio_regressor(arm, q, qd, qdd):
-    model, data = pinocchio_model(arm)
+    model = chain_model(arm.chain)
+    data = model.createData()
     return np.array([pin.computeJointTorqueRegressor(model, data, *state).copy() for state in zip(q, qd, qdd)])
 
 
@@ -194,6 +188,19 @@ def test_a_motion_keeps_the_limits(runs):
     q, qd, qdd = excite.sampled(poses, np.array([leg["duration_s"] for leg in scenario["reference"]["legs"]]))
     torque = regressor.inverse_dynamics(arm.chain, q, qd, qdd) @ arm.inertial + arm.rotor_inertia * qdd
     assert (np.abs(qd) < arm.speed_limit).all() and (np.abs(torque) < arm.torque_limit).all()
+
+
+def test_smoothing_keeps_cubics_and_its_derivatives_belong_to_it():
+    """One that bends an angle by its acceleration makes gravity's torque wrong by 1e-4, more than sigma says."""
+    for sigma in (1.5, 7.3):
+        value, first, second = filtering.smoothing(sigma)
+        k = np.arange(len(value)) - len(value) // 2
+        for cubic in ([0.3, -0.2, 0.5, 0.7], [0, 0, 1, 0], [0, 0, 0, 1]):
+            x = np.polynomial.polynomial.polyval(k / 10, cubic)
+            assert np.allclose([value @ x, first @ x, second @ x], [cubic[0], cubic[1] / 10, 2 * cubic[2] / 100], atol=3e-4)
+        w = 0.4 / sigma
+        gain = value @ np.cos(w * k)
+        assert abs(gain - 1) < w**4 * sigma**4 and abs(first @ np.sin(w * k) - w * gain) < 2e-3 * w and abs(second @ np.cos(w * k) + w * w * gain) < 0.02 * w * w
 
 
 def test_the_truth_is_not_read(runs):

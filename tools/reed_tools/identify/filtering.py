@@ -12,6 +12,7 @@ from reed_tools.robots.regressor import inverse_dynamics
 REST_radps = 0.01      # slower: the direction of Coulomb friction is not sure
 LARGEST_REST = 0.03    # share of a row's window at rest that is tolerated
 WIDTH = 4.0            # the first smoothing passes this multiple of the cutoff
+SIGMA_AT_3dB = 0.2335  # of the smoothing, times the frequency at which it halves the power
 INNER_PER_CUTOFF = 20  # samples of the regressor per period of the cutoff
 
 
@@ -24,14 +25,16 @@ class Rows:
     used: np.ndarray    # which joints' friction is sure, [n, dof]
 
 
-def gauss(sigma: float) -> list[np.ndarray]:
-    """Kernels for value, first and second derivative per sample, exact on parabolas. sigma: samples."""
+def smoothing(sigma: float) -> list[np.ndarray]:
+    """Kernels for value, first and second derivative per sample, of one smoothing: a Gaussian of fourth order, which keeps cubic
+    polynomials. One of second order would bend an angle by sigma^2/2 of its acceleration, which gravity's torque shows.
+    sigma: samples."""
     k = np.arange(-int(np.ceil(5 * sigma)), int(np.ceil(5 * sigma)) + 1)
-    g = np.exp(-0.5 * (k / sigma) ** 2)
-    g /= g.sum()
-    first = k * g
-    second = (k * k - (k * k) @ g) * g
-    return [g, first / (first @ k), 2 * second / (second @ (k * k))]
+    x = k / sigma
+    g = np.exp(-0.5 * x * x)
+    value, first, second = (1.5 - 0.5 * x**2) * g, (2.5 - 0.5 * x**2) * x * g, (4 * x**2 - 2.5 - 0.5 * x**4) * g
+    second = second - second.sum() / g.sum() * g
+    return [value / value.sum(), first / (first @ k), 2 * second / (second @ (k * k))]
 
 
 def correlate(x: np.ndarray, kernel: np.ndarray) -> np.ndarray:
@@ -50,8 +53,7 @@ def low_pass(cutoff: float) -> np.ndarray:
 def rows_of(stretch: Stretch, arm: NominalArm, friction: np.ndarray, cutoff_hz: float) -> Rows | None:
     """None where the stretch is too short. friction: [2, dof], viscous and Coulomb as far as they are known, for the springs."""
     h = stretch.period_s
-    sigma = max(0.1325 / (WIDTH * cutoff_hz) / h, 1.5)  # of a Gaussian with 3 dB at that multiple
-    kernels = gauss(sigma)
+    kernels = smoothing(max(SIGMA_AT_3dB / (WIDTH * cutoff_hz) / h, 1.5))
     if len(stretch.angle) < 4 * len(kernels[0]):
         return None
     theta, theta_d, theta_dd = (correlate(stretch.angle, kernel) / h**order for order, kernel in enumerate(kernels))

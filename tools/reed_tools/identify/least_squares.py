@@ -13,7 +13,8 @@ from reed_tools.identify.samples import Stretch
 from reed_tools.robots.nominal import NominalArm
 
 BENDING_UNSURE, JOINTS_UNSURE = 1.0, 0.1  # share of what the joints' springs change that is not sure: with links that bend, as much again
-ROUNDS = 4            # of weights, and of the friction that the springs feel
+ROUNDS = 4            # of weights
+READ_ROUNDS = 2       # of the friction that the springs feel
 LARGEST_LAG = 30      # rows over which residuals are taken to be alike
 LARGEST_CONDITION = 300.0
 LEAST_PER_COLUMN = 3  # rows
@@ -57,7 +58,7 @@ def weighted_fit(runs: list[Stretch], arm: NominalArm, base: Base, cutoff_hz: fl
     weight = np.ones(arm.dof)
     bends = np.isfinite(arm.stiffness).any()
     for number in range(ROUNDS):
-        if number == 0 or bends:  # friction enters the rows by what the springs carry
+        if number == 0 or (bends and number < READ_ROUNDS):  # friction enters the rows by what the springs carry
             rows = read_rows(runs, arm, friction, cutoff_hz, where)
         W, z = weighted(rows, base, weight)
         condition = condition_of(W)
