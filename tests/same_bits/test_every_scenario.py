@@ -68,6 +68,10 @@ def translated(command: str, compiler: str, level: str, folder: Path) -> tuple[l
     words = words[next(k for k, word in enumerate(words) if re.search(r"(\+\+|cc)(-\d+)?$", word) and "ccache" not in word) + 1:]
     made = folder / words[words.index("-o") + 1].replace("/", "_")
     out, skip = [], False
+    for k, word in enumerate(words):
+        if word.endswith("/cmake_pch.hxx"):  # another compiler takes the text and not GCC's precompiled header beside it
+            words[k] = str(folder / word.strip("/").replace("/", "_"))
+            shutil.copy(word, words[k])
     for word in words:
         if skip or word in ("-MD", "-o", "-MF", "-MT") or re.match(r"-W|-O[0-3s]$|--param=inline", word):
             skip = not skip and word in ("-o", "-MF", "-MT")

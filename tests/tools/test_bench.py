@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from reed_tools import cli
 from reed_tools.bench import command, plot, programs, rates, steps, wake
 from reed_tools.bench.rows import Found, Row
 
@@ -125,3 +126,14 @@ def test_bad_input_is_one_line_and_status_2(reed, argv, told):
     done = reed(*argv)
     assert done.returncode == 2, done.stdout + done.stderr
     assert len(done.stderr.splitlines()) == 1 and told in done.stderr
+
+
+def test_json_is_the_content_of_the_file_and_alone_on_standard_output(tmp_path, monkeypatch, capsys):
+    row = Row("a", 2.0, 1.0, "µs", 3.0, "the other")
+    monkeypatch.setattr(command, "MEASURES", {"telemetry": (lambda arguments, folder: Found([row], notes=["a note"]), "something")})
+    monkeypatch.setattr(plot, "draw", lambda *_: False)
+    assert cli.main(["bench", "telemetry", "--json", "--out", str(tmp_path / "bench")]) == 0
+    said = capsys.readouterr()
+    found = json.loads(said.out)
+    assert found == json.loads((tmp_path / "bench" / "bench.json").read_text()) and set(found) == {"machine", "rows", "notes", "details"}
+    assert found["rows"] == [row.as_json()] and found["notes"] == ["a note"] and "measuring something" in said.err

@@ -180,6 +180,10 @@ def test_a_campaign_writes_its_draws_junit_and_page(reed, small, tmp_path):
     for one in drawn:
         assert all(entry in page for entry in one["overrides"] if not entry.startswith("scenario.seed")), one
     assert page.count("tools/reed run") == 4 and page.count("<img") == 2
+    again = reed("campaign", "--resume", folder, "--repeat", 0, "--json")  # every draw is there
+    found = json.loads(again.stdout)
+    assert again.returncode == 0 and found == {"folder": str(folder), **json.loads((folder / "summary.json").read_text())}
+    assert found["verdict"] == "pass" and "PASS" in again.stderr
     assert "http" not in page and "src=\"data:image/png;base64," in page
 
 
