@@ -14,20 +14,22 @@ from reed_tools.testing.stages import Stage, all_stages
 
 EXAMPLE = """examples:
   tools/reed test                                      # everything
-  tools/reed test test_live force                      # tests whose name contains one of these"""
+  tools/reed test test_live force                      # tests whose name contains one of these
+  tools/reed test --long fuzz                          # those of endurance in full: minutes, not seconds"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("--ci", action="store_true", help="a test that is skipped fails, but for those that a machine's kernel or rights decide "
                                                           "(tools/reed_tools/testing/skips.py)")
+    parser.add_argument("--long", action="store_true", help="tests of endurance in full: 10^8 broken frames to each receiver")
     parser.add_argument("filters", nargs="*", metavar="FILTER",
                         help="only tests whose name contains one of these, or a stage: layout, tidy, gate, asan, tsan")
 
 
 def run(arguments) -> int:
-    stages = all_stages(arguments.filters)
+    stages = all_stages(arguments.filters, arguments.long)
     for stage in stages:
-        execute(stage, no_skips=arguments.ci)
+        execute(stage, no_skips=arguments.ci, long=arguments.long)
     done = [stage for stage in stages if stage.closing_lines]
     if not done:
         raise UsageError(f"no test matches {' '.join(arguments.filters)}")
@@ -44,13 +46,13 @@ def own_environment() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 
-def execute(stage: Stage, no_skips: bool = False) -> None:
+def execute(stage: Stage, no_skips: bool = False, long: bool = False) -> None:
     """Streams the stage's output and keeps its runner's closing lines."""
     for path in stage.results:
         path.unlink(missing_ok=True)
     print(f"== {stage.name}", flush=True)
     started = time.monotonic()
-    environment = {**own_environment(), "REED_BUILD_DIR": str(BUILD), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {**own_environment(), "REED_BUILD_DIR": str(BUILD), "PYTHONDONTWRITEBYTECODE": "1", "REED_LONG": "1" if long else "0"}
     process = subprocess.Popen(stage.command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True, errors="replace")
     for line in process.stdout:

@@ -36,7 +36,10 @@ class Stage:
     closing_lines: list[str] = field(default_factory=list)
 
 
-def all_stages(filters: list[str]) -> list[Stage]:
+LONGEST_TEST_S = 86400  # in the long mode
+
+
+def all_stages(filters: list[str], long: bool = False) -> list[Stage]:
     """In the order of running: quick ones first, the runners that everybody knows last."""
     def wanted(name: str) -> bool:
         return not filters or name in filters
@@ -49,7 +52,7 @@ def all_stages(filters: list[str]) -> list[Stage]:
         stages.append(gate())
     names = [text for text in filters if text not in ("layout", "tidy", "gate", *SANITIZED)]
     if names or not filters:
-        stages += [ctest(names, socketcan=False), ctest(names, socketcan=True), pytest(names)]
+        stages += [ctest(names, False, long), ctest(names, True, long), pytest(names)]
     return [stage for stage in stages if stage]
 
 
@@ -97,9 +100,11 @@ def database_for_clang() -> Path:
     return folder
 
 
-def ctest(names: list[str], socketcan: bool) -> Stage | None:
+def ctest(names: list[str], socketcan: bool, long: bool = False) -> Stage | None:
     """The tests labelled socketcan need a CAN interface: the kernel's own where it has vcan, else the small VM's."""
     selection = ["-L", "socketcan"] if socketcan else ["-LE", "socketcan", "-j", str(CORES)]
+    if long:
+        selection += ["--timeout", str(LONGEST_TEST_S)]
     if names:
         selection += ["-R", "|".join(re.escape(text) for text in names)]
     base = ["ctest", "--test-dir", str(BUILD), *selection]
