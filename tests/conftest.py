@@ -1,6 +1,7 @@
 """Several workers may share these tests (`pytest -n`). What flies in wall time stays together on one of them, so that no
 other flight takes its core; what else there is goes file by file, each with a bus of its own."""
 
+import os
 import signal
 
 for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
@@ -10,6 +11,12 @@ for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
 FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
          "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_live.py",
          "tools/test_report_page.py")
+
+
+def pytest_configure(config):
+    """`tools/reed test --long` runs those marked long too (pytest.ini leaves them out)."""
+    if os.environ.get("REED_LONG") == "1" and config.option.markexpr == "not long":
+        config.option.markexpr = ""
 
 
 def pytest_xdist_make_scheduler(config, log):

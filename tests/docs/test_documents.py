@@ -55,7 +55,7 @@ def commands(start):
 def written():
     """Files that a command of the documents writes before others read them."""
     listed = [words for _, words in commands("tools/reed ")]
-    return {words[k + 1] for words in listed for k, word in enumerate(words) if word in ("--out", "--write")}
+    return {name for words in listed for k, word in enumerate(words) if word in ("--out", "--write") for name in words[k + 1:k + 2]}
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
