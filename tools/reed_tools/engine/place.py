@@ -1,9 +1,11 @@
 """Where the workers are: a cluster of this machine's cores that ends with the command, or a scheduler that somebody else started."""
 
 import logging
+import socket
 import tempfile
 import warnings
 from contextlib import contextmanager
+from urllib.parse import urlsplit
 
 from reed_tools.errors import UsageError
 
@@ -29,6 +31,9 @@ def of_scheduler(address: str):
     from distributed import Client
 
     try:
+        place = urlsplit(address)
+        if place.scheme == "tcp" and place.hostname and place.port:  # Dask goes on trying where nobody listens
+            socket.create_connection((place.hostname, place.port), CONNECT_S).close()
         found = Client(address, timeout=CONNECT_S, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise UsageError(f"--scheduler {address}: no Dask scheduler answers there: {str(error) or type(error).__name__}") from None
