@@ -9,7 +9,7 @@ for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
 
 FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
-         "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_live.py",
+         "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_killed.py", "tools/test_live.py",
          "tools/test_report_page.py")
 
 
