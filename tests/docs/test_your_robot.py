@@ -25,7 +25,7 @@ def desk(tmp_path_factory):
 
 
 def test_the_tutorial_has_a_command_of_each_kind():
-    assert {words[0] for words in commands()} == {"arm", "scenario", "identify", "run"}
+    assert {words[0] for words in commands()} == {"arm", "scenario", "tune", "identify", "run"}
 
 
 @pytest.mark.parametrize("words", commands(), ids=" ".join)
