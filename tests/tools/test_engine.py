@@ -210,7 +210,7 @@ def test_runs_on_a_scheduler_have_the_same_records_and_the_workers_stay(alone, t
             process = start(tmp_path, "--scheduler", SCHEDULER, "--out", tmp_path / folder)
             out, err = process.communicate(timeout=180)
             assert err == "" and records(tmp_path / folder) == alone, out + err
-        assert out.count("is left out") == 1 and "its programs are build" in out, out
+            assert out.count("is left out") == 1 and "its programs are build" in out, out
     finally:
         for process in reversed(started):
             process.terminate()

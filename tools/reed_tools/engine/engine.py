@@ -24,6 +24,7 @@ LOOK_S = 5.0             # between looks at who has joined and who has left
 WORKERS_PATIENCE_S = 60.0  # without any worker at the start
 LOST_PATIENCE_S = 300.0    # without any that is left, or comes back
 STOP_PATIENCE_S = 2 * hil.STOP_PATIENCE_S
+HEAR_PATIENCE_S = 30.0      # for workers that have not said at the end whether they may run
 AHEAD = 2                # runs given to a worker: it never waits for the next one
 
 
@@ -63,6 +64,7 @@ class Engine:
 
     def leave(self) -> None:
         """Runs that are left end; workers of a scheduler stay for others."""
+        self.hear_the_rest()
         self.stop_runs()
         if self.scheduler and self.client.status == "running":
             with suppress(OSError):  # likewise
@@ -93,6 +95,15 @@ class Engine:
         self.refused = {address: why for address, why in self.refused.items() if address in self.known}
         self.looked = time.monotonic()
         return bool(self.accepted)
+
+    def hear_the_rest(self) -> None:
+        """A short campaign can be over before a worker with another build has said so."""
+        end = time.monotonic() + HEAR_PATIENCE_S
+        while self.scheduler and not self.interrupted and self.client.status == "running" and time.monotonic() < end:
+            self.look()
+            if len(self.accepted) + len(self.refused) == len(self.known):
+                return
+            time.sleep(POLL_S)
 
     def stop_runs(self) -> None:
         """Programs end in order, as after a Ctrl-C in a run; a worker that does not answer is left to the end of its cluster."""
