@@ -8,6 +8,7 @@
 #include "reed/config/schema/plausibility.h"
 #include "reed/config/schema/scenario_file.h"
 #include "reed/plant/dynamics/arm_plant.h"
+#include "reed/plant/faults/fault_checks.h"
 #include "reed/rt/program.h"
 
 namespace {
@@ -30,20 +31,27 @@ void PrintMargins(const std::vector<reed::JointLoop>& loops) {
 }
 
 /// What the simulated arm would refuse when it starts.
-std::string NoEquilibrium(const reed::Scenario& scenario) {
+std::optional<reed::KeyProblem> NoEquilibrium(const reed::Scenario& scenario) {
   try {
     const reed::plant::ArmPlant at_rest(reed::PlantHalf(scenario));
   } catch (const reed::plant::NoEquilibrium& none) {
-    return none.kProblem;
+    return reed::KeyProblem{"reference.start_rad", none.kProblem};
   }
-  return "";
+  return std::nullopt;
+}
+
+/// A fault that nothing would apply.
+std::optional<reed::KeyProblem> IdleFault(const reed::Scenario& scenario) {
+  const auto found = reed::plant::FindProblem(reed::PlantHalf(scenario), scenario.duration_s);
+  if (!found) return std::nullopt;
+  return reed::KeyProblem{"fault[" + std::to_string(found->fault) + "]." + found->key, found->text};
 }
 
 int Run(int argc, char** argv) {
   CLI::App app{"Checks a Reed scenario with its arm. Exit 0: sound, 2: not, with one line that says where."};
   std::string scenario = "press_known", write_path, controller_path, plant_path;
   reed::LoadOptions options;
-  bool keys = false, arm_keys = false, margins = false;
+  bool keys = false, arm_keys = false, fault_kinds = false, margins = false;
   app.set_version_flag("--version", REED_VERSION);
   app.add_option("--config", scenario, "scenario: name in config/scenarios, or path");
   app.add_option("--arm", options.arm, "arm instead of the scenario's: name in config/arms, or path");
@@ -54,6 +62,7 @@ int Run(int argc, char** argv) {
   app.add_option("--write-plant", plant_path, "write the plant's half here: nothing of the law");
   app.add_flag("--margins", margins, "print gain and phase margin of every joint's loop, as JSON");
   app.add_flag("--keys", keys, "print the table of a scenario's keys (config/README.md)");
+  app.add_flag("--fault-kinds", fault_kinds, "print the table of the kinds of faults (docs/faults.md)");
   app.add_flag("--arm-keys", arm_keys, "print the table of an arm's keys (config/README.md)");
   try {
     app.parse(argc, argv);
@@ -63,13 +72,17 @@ int Run(int argc, char** argv) {
     std::fprintf(stderr, "%s (reed_config --help lists the options)\n", error.what());
     return 2;
   }
+  if (fault_kinds) {
+    std::cout << reed::plant::FaultKindTable();
+    return 0;
+  }
   if (keys || arm_keys) {
     std::cout << (keys ? reed::KeyReference() : reed::ArmKeyReference());
     return 0;
   }
   try {
-    const reed::FurtherCheck at_rest{"reference.start_rad", NoEquilibrium};
-    const reed::Scenario checked = reed::LoadScenario(scenario, options, reed::Wanted::kWhole, &at_rest);
+    const reed::Scenario checked =
+        reed::LoadScenario(scenario, options, reed::Wanted::kWhole, {IdleFault, NoEquilibrium});
     if (margins) PrintMargins(reed::LoopsOf(checked, reed::Load::kStart));
     Write(write_path, reed::EffectiveToml(checked));
     Write(controller_path, reed::ToToml(reed::ControllerHalf(checked)));

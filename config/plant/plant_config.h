@@ -8,6 +8,7 @@
 
 #include "reed/config/description/sensor_data.h"
 #include "reed/config/description/timing_config.h"
+#include "reed/config/plant/fault_config.h"
 #include "reed/config/plant/true_arm.h"
 
 namespace reed {
@@ -80,6 +81,7 @@ struct PlantConfig {
   DisturbanceConfig disturbance;
   std::vector<double> start_rad;  // motor-side joint angles at t = 0
   TimingConfig timing;
+  std::vector<FaultConfig> faults;
 };
 
 }  // namespace reed

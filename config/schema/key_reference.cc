@@ -89,6 +89,7 @@ std::string KeyReference() {
   List<ControlConfig>(out, "control");
   List<LimitConfig>(out, "limits");
   List<TimingConfig>(out, "timing");
+  List<FaultConfig>(out, "fault[]");
   List<CheckConfig>(out, "checks[]");
   return out.str();
 }

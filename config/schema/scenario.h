@@ -35,6 +35,7 @@ struct Scenario {
   ControlConfig control;
   LimitConfig limits;
   TimingConfig timing;
+  std::vector<FaultConfig> faults;
   std::vector<CheckConfig> checks;
 };
 

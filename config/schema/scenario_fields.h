@@ -13,6 +13,7 @@ inline constexpr const char* kDisturbancePlaces[] = {"tool", "arm"};
 inline constexpr const char* kForceSources[] = {"none", "known", "unknown", "auto"};
 inline constexpr const char* kOverrunPolicies[] = {"keep_grid", "skip", "hold", "stop"};
 inline constexpr const char* kPhaseActions[] = {"count", "hold", "degrade", "fault"};
+inline constexpr const char* kEdges[] = {"rising", "falling"};
 inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine"};
 
 template <typename V>
@@ -233,6 +234,43 @@ void Fields(V& v, TimingConfig& c) {
   v.Integer("priority", c.priority, {"1", 1, 98}, "SCHED_FIFO priority of the loop");
   v.Integer("cpu", c.cpu, {"1", -1, 1023}, "core of the loop; -1: the last one it may use, in lockstep any");
   v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023}, "core of the plant in realtime; -1: that of the loop");
+}
+
+template <typename V>
+void Fields(V& v, FaultConfig& c) {
+  v.Text("id", c.id, "its name, each once");
+  v.Text("target", c.target,
+         "what is faulty: jointN or joints, then .encoder, .speed, .torque, .frame, .drive, .brake or .node; "
+         "wrench.force, wrench.force_x (_y, _z) or wrench.frame; sync.frame, command.frame, controller, bus "
+         "(docs/faults.md)");
+  v.Text("kind", c.kind, "what is wrong with it: the table in docs/faults.md");
+  v.Number("size", c.size, {"unit of the kind", -1e6, 1e6}, "how much; 0: the kind's usual size");
+  v.Number("from_s", c.from_s, {"s", -1, 3600},
+           "starts at this time after the drives were enabled; -1: not by time");
+  v.Integer("from_cycle", c.from_cycle, {"1", -1, 2000000000}, "or in this cycle; -1: not by number");
+  v.Text("from_mode", c.from_mode, "or when the drives are off, ready, enabled, braked or in fault");
+  v.Text("from_event", c.from_event,
+         "or at contact_made, contact_lost, brakes_released, brakes_closed, or when the fault with this id "
+         "begins");
+  v.Text("signal", c.signal,
+         "or when this signal passes level: normal_force_N, gap_m, tip_speed_mps, or jointN.angle_rad, "
+         "jointN.speed_radps");
+  v.Choice("edge", c.edge, kEdges, "rising: the signal is above level | falling: below");
+  v.Number("level", c.level, {"unit of the signal", -1e6, 1e6}, "of the signal");
+  v.Number("for_s", c.for_s, {"s", 0, 3600}, "the signal must stay beyond level for so long");
+  v.Number("delay_s", c.delay_s, {"s", 0, 3600}, "from the trigger to the fault");
+  v.Number("duration_s", c.duration_s, {"s", 0, 3600}, "of the fault; 0: to the end of the run");
+  v.Boolean("once", c.once, "false: at every trigger again");
+  v.Number("probability", c.probability, {"1", 0, 1},
+           "of acting in a cycle of the window, drawn from the seed");
+  v.Boolean("announced", c.announced, "the faulty device reports it, as far as its frames can");
+  v.Text("detected_by", c.detected_by, "expected: names of reasons or events, with commas between them");
+  v.Number("within_ms", c.within_ms, {"ms", 0, 1e6},
+           "expected: from the fault to its detection; 0: not stated");
+  v.Text("reaction", c.reaction, "expected: trip, source (another force source), hold or none");
+  v.Number("safe_within_ms", c.safe_within_ms, {"ms", 0, 1e6},
+           "expected: from the fault to the safe state; 0: not stated");
+  v.Text("requirement", c.requirement, "the safety requirement that it tests (safety/*.toml)");
 }
 
 template <typename V>

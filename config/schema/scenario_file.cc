@@ -91,7 +91,7 @@ void ResolveArm(Document& doc, const std::string& wanted) {
 void RefuseUnknownSections(Document& doc) {
   const std::vector<std::string> sections{"scenario", "arm",         "plant",     "drives", "sensors",
                                           "wall",     "disturbance", "reference", "force",  "control",
-                                          "limits",   "timing",      "checks"};
+                                          "limits",   "timing",      "fault",     "checks"};
   for (const auto& [key, node] : doc.root()) {
     if (std::find(sections.begin(), sections.end(), key.str()) != sections.end()) continue;
     const std::string word(key.str());
@@ -145,7 +145,7 @@ void FindStart(Document& doc, Scenario& s) {
 }  // namespace
 
 Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options, Wanted wanted,
-                      const FurtherCheck* further) {
+                      const std::vector<FurtherCheck>& further) {
   Document doc = Document::Load(FindConfig("scenarios", name_or_path));
   ResolveArm(doc, options.arm);
   for (const std::string& assignment : options.set) Override(doc, assignment);
@@ -167,6 +167,7 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   ReadSection(doc, "control", s.control);
   ReadSection(doc, "limits", s.limits);
   ReadSection(doc, "timing", s.timing);
+  ReadList(doc, doc.root().get("fault"), "fault", s.faults);
   ReadList(doc, doc.root().get("checks"), "checks", s.checks);
 
   Spread(s.control.K_d, s.arm.dof());
@@ -177,9 +178,8 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   CheckRules(doc, s, has_law);
   if (!s.plant.p_true.empty()) SetTrueParameters(s.arm, s.plant.p_true);
   s.wall.normal.normalize();
-  if (further == nullptr) return s;
-  if (const std::string problem = further->problem(s); !problem.empty())
-    doc.Fail(doc.root().at_path(further->key).node(), further->key, problem);
+  for (const FurtherCheck& check : further)
+    if (const auto found = check(s)) doc.Fail(doc.root().at_path(found->key).node(), found->key, found->text);
   return s;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "reed/config/description/config_error.h"
 #include "reed/config/description/load_options.h"
@@ -13,16 +15,18 @@ namespace reed {
 /// A file with the plant's half alone has no law to be checked.
 enum class Wanted { kWhole, kPlantHalf };
 
-/// A check that needs more than the files: what is wrong with the value of `key`, "" if nothing.
-struct FurtherCheck {
-  const char* key;
-  std::function<std::string(const Scenario&)> problem;
+/// What is wrong with the value of a key.
+struct KeyProblem {
+  std::string key, text;
 };
+
+/// A check that needs more than the files.
+using FurtherCheck = std::function<std::optional<KeyProblem>(const Scenario&)>;
 
 /// Reads a scenario with its arm, applies the overrides, checks every key and every rule between keys.
 /// Throws ConfigError: one line with file, line, key and what is allowed.
 Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& options = {},
-                      Wanted wanted = Wanted::kWhole, const FurtherCheck* further = nullptr);
+                      Wanted wanted = Wanted::kWhole, const std::vector<FurtherCheck>& further = {});
 
 /// The whole configuration after defaults and overrides, as a scenario file that LoadScenario reads back
 /// unchanged.

@@ -60,6 +60,7 @@ std::string EffectiveToml(const Scenario& scenario) {
   WriteSimulation(scenario, root);
   WriteLaw(scenario, root);
   root.insert("timing", Table(scenario.timing));
+  if (!scenario.faults.empty()) root.insert("fault", Tables(scenario.faults));
   root.insert("checks", Tables(scenario.checks));
   return ToText(root);
 }
@@ -101,6 +102,7 @@ std::string ToToml(const PlantConfig& half) {
   WriteSimulation(half, root);
   root.insert("reference", toml::table{{"start_rad", ToToml(half.start_rad)}});
   root.insert("timing", Table(half.timing));
+  if (!half.faults.empty()) root.insert("fault", Tables(half.faults));
   return ToText(root);
 }
 

@@ -45,6 +45,7 @@ class ArmPlant::Impl {
         equations_(chain_, wall_),
         integrator_(equations_.size()),
         brakes_(BuildBrakes(chain_)),
+        acting_(brakes_.size()),
         centre_line_(chain_, kShapeSamples) {
     if (!(config_.max_step_s > 0.0)) throw std::invalid_argument("plant.max_step_s must be positive");
     const int n = chain_.dof();
@@ -66,7 +67,7 @@ class ArmPlant::Impl {
     untouched_ = false;
     t_ = 0.0;
     schedule_from_ = kNever;
-    braked_ = false;
+    closed_ = 0;
     sick_coordinate_ = -1;
     equations_.SetPayload(0.0);
     loaded_ = false;
@@ -94,11 +95,16 @@ class ArmPlant::Impl {
       end_.disturbance = disturbance_.Force(t_ + h, t_ + h - schedule_from_);
       integrator_.Step(equations_, begin_, end_, h, x_, x_dot_);
       t_ += h;
-      if (braked_)
-        for (std::size_t j = 0; j < brakes_.size(); ++j) brakes_[j].Follow(x_[static_cast<Eigen::Index>(j)]);
+      if (closed_ != 0)
+        for (std::size_t j = 0; j < acting_.size(); ++j) acting_[j].Follow(x_[static_cast<Eigen::Index>(j)]);
       Diagnose();
     }
     UpdateTruth();
+  }
+
+  void ForceBrakes(std::uint32_t closed, std::uint32_t open) {
+    forced_closed_ = closed;
+    forced_open_ = open;
   }
 
   void StartSchedule() {
@@ -136,11 +142,20 @@ class ArmPlant::Impl {
 
  private:
   void OperateBrakes(bool braked) {
-    if (braked && !braked_)
-      for (std::size_t j = 0; j < brakes_.size(); ++j) brakes_[j].Close(x_[static_cast<Eigen::Index>(j)]);
-    braked_ = braked;
-    begin_.brakes = end_.brakes = braked_ ? &brakes_ : nullptr;
-    if (braked_) begin_.motor_torque.setZero(), end_.motor_torque.setZero();
+    const std::uint32_t commanded = braked ? ~0U : 0U;
+    const std::uint32_t closed =
+        ((commanded | forced_closed_) & ~forced_open_) & ((1U << brakes_.size()) - 1U);
+    for (std::size_t j = 0; j < brakes_.size(); ++j) {
+      const bool now = (closed >> j & 1U) != 0, before = (closed_ >> j & 1U) != 0;
+      if (now && !before) {
+        acting_[j] = brakes_[j];
+        acting_[j].Close(x_[static_cast<Eigen::Index>(j)]);
+      }
+      if (!now) acting_[j] = Brake();
+    }
+    closed_ = closed;
+    begin_.brakes = end_.brakes = closed_ != 0 ? &acting_ : nullptr;
+    if (braked) begin_.motor_torque.setZero(), end_.motor_torque.setZero();
   }
 
   void TakePayload() {
@@ -178,15 +193,16 @@ class ArmPlant::Impl {
   Disturbance disturbance_;
   EquationsOfMotion equations_;
   Rosenbrock integrator_;
-  std::vector<Brake> brakes_;
+  std::vector<Brake> brakes_, acting_;  // as built; as they are now, an open one does nothing
   CentreLine centre_line_;
   VectorXd x_, x_dot_, undeformed_;
   Load begin_, end_;
   Truth truth_;
   ArmShape shape_;
   double t_ = 0.0;
-  double schedule_from_ = kNever;  // in t_
-  bool braked_ = false, loaded_ = false;
+  double schedule_from_ = kNever;                                   // in t_
+  std::uint32_t closed_ = 0, forced_closed_ = 0, forced_open_ = 0;  // brakes, a bit per motor
+  bool loaded_ = false;
   VectorXd rest_rad_;       // of the last Reset
   bool untouched_ = false;  // since then: the same again changes nothing, and takes as long as 50 cycles
   int sick_coordinate_ = -1;
@@ -198,6 +214,7 @@ void ArmPlant::Reset(const VectorXd& motor_angle_rad) { impl_->Reset(motor_angle
 void ArmPlant::Advance(const VectorXd& motor_torque_Nm, bool braked, double dt_s) {
   impl_->Advance(motor_torque_Nm, braked, dt_s);
 }
+void ArmPlant::ForceBrakes(std::uint32_t closed, std::uint32_t open) { impl_->ForceBrakes(closed, open); }
 void ArmPlant::StartSchedule() { impl_->StartSchedule(); }
 const Truth& ArmPlant::truth() const { return impl_->truth(); }
 const ArmShape& ArmPlant::Shape() { return impl_->Shape(); }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,9 @@ class ArmPlant {
   /// Advances by dt with constant motor torques (or closed brakes: motors held by stiff friction), in steps
   /// of at most plant.max_step_s. No heap allocation after the constructor and one Reset.
   void Advance(const Eigen::VectorXd& motor_torque_Nm, bool braked, double dt_s);
+
+  /// Brakes that are stuck, a bit per motor: from the next Advance on these stay closed or open whatever `braked` says.
+  void ForceBrakes(std::uint32_t closed, std::uint32_t open);
 
   /// From now on the scenario's payload and step of force count; before that neither comes.
   void StartSchedule();

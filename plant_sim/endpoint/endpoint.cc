@@ -20,9 +20,10 @@ Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody
           static_cast<std::uint32_t>(std::max(1L, std::lround(config.timing.rate_hz / kShapes_hz)))),
       timeout_periods_(config.drives.command_timeout_cycles),
       body_(body),
+      faults_(Injector::For(config, body, transport)),
       journal_(recorder),
-      robot_(config, body, journal_),
-      port_(transport, std::move(codec)) {}
+      robot_(config, faults_ ? faults_->body() : body, journal_),
+      port_(faults_ ? faults_->transport() : transport, std::move(codec)) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {
   const auto incoming = port_.Receive(deadline_ns);
@@ -51,8 +52,10 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
     return false;
   }
   journal_.Stamp(sync.count, utime);
+  count_ = sync.count;
   if (sync.new_controller) {
     const bool first = syncs_ == 0;
+    if (faults_) faults_->Reset();
     robot_.Reset();
     journal_.Note(first ? PlantEvent::kControllerPresent : PlantEvent::kControllerRestarted,
                   robot_.drives().state(), 0.0,
@@ -64,9 +67,19 @@ bool Endpoint::Accept(const Incoming& sync, std::int64_t utime) {
 }
 
 void Endpoint::Sample(std::uint32_t cycle, const HostPauses& host) {
-  port_.Answer(cycle, robot_.Measure());
+  Measurement measurement = robot_.Measure();
+  if (faults_) Disturb(measurement);
+  port_.Answer(cycle, measurement);
   journal_.Put(robot_.Snapshot(host));
   if (cycle % shape_every_cycles_ == 0) journal_.Put(robot_.ShapeSnapshot());
+}
+
+void Endpoint::Disturb(Measurement& measurement) noexcept {
+  faults_->Step(count_, robot_.time_s(), robot_.enabled_for_s(), robot_.drives().state(), measurement);
+  for (const FaultChange& change : faults_->TakeChanges())
+    journal_.Note(change.begins ? PlantEvent::kFaultBegins : PlantEvent::kFaultEnds, robot_.drives().state(),
+                  static_cast<double>(change.fault), "fault %s %s: %s of %s at %.3f s", change.id,
+                  change.begins ? "begins" : "ends", change.kind, change.target, robot_.time_s());
 }
 
 void Endpoint::CheckHealth() {

@@ -9,6 +9,7 @@
 #include "reed/plant/endpoint/bus_port.h"
 #include "reed/plant/endpoint/outcome.h"
 #include "reed/plant/endpoint/robot.h"
+#include "reed/plant/faults/injector.h"
 
 namespace reed::plant {
 
@@ -52,10 +53,13 @@ class Endpoint {
 
  private:
   void Fail(Outcome outcome, const std::string& line);
+  /// Faults of the scenario, on what the sensors say now.
+  void Disturb(Measurement& measurement) noexcept;
   /// Once.
   void TellOfAnotherArm() noexcept;
 
   ArmBody& body_;
+  std::unique_ptr<Injector> faults_;  // null: none
   Journal journal_;
   Robot robot_;
   BusPort port_;
@@ -63,6 +67,7 @@ class Endpoint {
   std::string failure_;
   bool told_of_another_arm_ = false;
   std::int64_t syncs_ = 0;
+  std::int64_t count_ = 0;  // number of the last SYNC
   std::uint64_t refused_commands_ = 0;
 };
 

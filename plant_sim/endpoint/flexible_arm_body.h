@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reed/plant/endpoint/arm_body.h"
+#include "reed/plant/dynamics/arm_body.h"
 
 namespace reed::plant {
 
@@ -15,6 +15,7 @@ class FlexibleArmBody final : public ArmBody {
     plant_.Advance(motor_torque_Nm, braked, dt_s);
   }
   void StartSchedule() override { plant_.StartSchedule(); }
+  void ForceBrakes(std::uint32_t closed, std::uint32_t open) override { plant_.ForceBrakes(closed, open); }
   const Truth& truth() const override { return plant_.truth(); }
   const ArmShape& Shape() override { return plant_.Shape(); }
   bool healthy() const override { return plant_.healthy(); }

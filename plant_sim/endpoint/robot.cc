@@ -38,7 +38,6 @@ void Robot::Reset() {
   enabled_s_ = -1.0;
   request_ = bus::DriveRequest::kOff;
   in_contact_ = body_.truth().gap_m < 0.0;
-  wrench_lost_ = false;
 }
 
 Measurement Robot::Measure() {
@@ -57,12 +56,7 @@ Measurement Robot::Measure() {
   sampled_s_ = time_s_;
   // A wall and a disturbance act on a point: no moment about the tool point.
   m.wrench = wrench_.Measure(truth.sensed_force_N, Eigen::Vector3d::Zero());
-  m.wrench_lost = !wrench_.fitted() || (enabled_s_ >= 0.0 && wrench_.Lost(time_s_ - enabled_s_));
-  if (m.wrench_lost != wrench_lost_) {
-    wrench_lost_ = m.wrench_lost;
-    journal_.Note(wrench_lost_ ? PlantEvent::kWrenchLost : PlantEvent::kWrenchBack, drives_.state(), time_s_,
-                  "wrench frames %s at %.3f s", wrench_lost_ ? "stop" : "are back", time_s_);
-  }
+  m.wrench_lost = !wrench_.fitted();
   return m;
 }
 

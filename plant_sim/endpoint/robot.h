@@ -3,7 +3,6 @@
 // event.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,21 +10,14 @@
 #include "reed/config/plant/plant_config.h"
 #include "reed/plant/drive/drive_chain.h"
 #include "reed/plant/drive/torque_excitation.h"
-#include "reed/plant/endpoint/arm_body.h"
+#include "reed/plant/dynamics/arm_body.h"
 #include "reed/plant/endpoint/journal.h"
 #include "reed/plant/sensor/encoder.h"
+#include "reed/plant/sensor/measurement.h"
 #include "reed/plant/sensor/velocity_filter.h"
 #include "reed/plant/sensor/wrench_sensor.h"
 
 namespace reed::plant {
-
-/// What the sensors say at one instant.
-struct Measurement {
-  int dof = 0;
-  std::array<bus::JointStateMessage, kMaxJoints> joints{};
-  WrenchReading wrench;
-  bool wrench_lost = false;
-};
 
 class Robot {
  public:
@@ -54,6 +46,8 @@ class Robot {
   ShapeRecord ShapeSnapshot();
 
   double time_s() const noexcept { return time_s_; }
+  /// Since the drives were enabled; negative before.
+  double enabled_for_s() const noexcept { return enabled_s_ >= 0.0 ? time_s_ - enabled_s_ : -1.0; }
   bool healthy() const { return body_.healthy(); }
   const DriveChain& drives() const noexcept { return drives_; }
 
@@ -76,7 +70,6 @@ class Robot {
   double enabled_s_ = -1.0;  // when the drives were enabled last, -1: never in this run
   bus::DriveRequest request_ = bus::DriveRequest::kOff;
   bool in_contact_ = false;
-  bool wrench_lost_ = false;
 };
 
 }  // namespace reed::plant

@@ -50,8 +50,10 @@ enum class PlantEvent : std::int32_t {
   kTooSlow = 209,   // value: plant time given up, s
   kWrenchLost = 210,
   kWrenchBack = 211,
-  kHostPause = 212,   // value: for how long, s
-  kAnotherArm = 213,  // value: plant time, s
+  kHostPause = 212,    // value: for how long, s
+  kAnotherArm = 213,   // value: plant time, s
+  kFaultBegins = 214,  // value: its number in the scenario, from 0
+  kFaultEnds = 215,
 };
 
 /// Mirrors lcmtypes/event_t.lcm.

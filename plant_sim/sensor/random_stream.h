@@ -33,10 +33,10 @@ class RandomStream {
     return radius * cosine;
   }
 
- private:
   /// In (0, 1]: the logarithm of it is finite.
   double Uniform() noexcept { return std::ldexp(static_cast<double>((engine_() >> 11U) + 1U), -53); }
 
+ private:
   std::mt19937_64 engine_;
   double spare_ = 0.0;
   bool has_spare_ = false;

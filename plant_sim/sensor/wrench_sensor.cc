@@ -39,11 +39,4 @@ WrenchReading WrenchSensor::Measure(const Eigen::Vector3d& force_N,
   return reading;
 }
 
-bool WrenchSensor::Lost(double since_enabled_s) const noexcept {
-  constexpr double kClockRounding_s = 1e-9;  // a sum of periods may end just short of the instant it means
-  const double t_s = since_enabled_s + kClockRounding_s;
-  const bool back = config_.wrench_lost_to_s >= 0.0 && t_s >= config_.wrench_lost_to_s;
-  return config_.wrench_lost_from_s >= 0.0 && t_s >= config_.wrench_lost_from_s && !back;
-}
-
 }  // namespace reed::plant

@@ -27,9 +27,6 @@ class WrenchSensor {
 
   bool fitted() const noexcept { return config_.wrench; }
 
-  /// True while no frame leaves the sensor; seconds since the drives were enabled, negative before.
-  bool Lost(double since_enabled_s) const noexcept;
-
  private:
   SensorConfig config_;
   std::int64_t seed_;

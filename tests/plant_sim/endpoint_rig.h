@@ -37,6 +37,7 @@ class RotorBody final : public ArmBody {
     truth_.t_s += dt_s;
     longest_step_s = std::max(longest_step_s, dt_s);
   }
+  void ForceBrakes(std::uint32_t closed, std::uint32_t open) override { brakes = closed + 65536.0 * open; }
   void StartSchedule() override { schedule_from_s = truth_.t_s; }
   const Truth& truth() const override { return truth_; }
   const ArmShape& Shape() override {
@@ -52,6 +53,7 @@ class RotorBody final : public ArmBody {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   double sick_from_s = 1e9;
   double longest_step_s = 0.0;
+  double brakes = 0.0;  // stuck ones
   double schedule_from_s = -1.0;
   int resets = 0;
 

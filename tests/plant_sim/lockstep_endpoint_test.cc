@@ -118,8 +118,8 @@ TEST_F(Lockstep, TheWrenchStopsInItsWindowCountedFromEnabling) {
   }
   EXPECT_EQ(lost, (std::vector<std::uint32_t>{12, 13, 14, 15, 16})) << "enabled at 2T";
   EXPECT_DOUBLE_EQ(body_.schedule_from_s, 2 * kPeriod_s) << "payload and step of force count from there too";
-  EXPECT_EQ(recorder_.Count(PlantEvent::kWrenchLost), 1);
-  EXPECT_EQ(recorder_.Count(PlantEvent::kWrenchBack), 1);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kFaultBegins), 1);
+  EXPECT_EQ(recorder_.Count(PlantEvent::kFaultEnds), 1);
 }
 
 TEST_F(Lockstep, TheWrenchIsTheForceOnTheRobotInBaseAxes) {

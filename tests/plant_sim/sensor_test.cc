@@ -190,21 +190,5 @@ TEST(WrenchSensor, ResetRepeatsTheSameNoiseAndAnotherSeedDoesNot) {
   EXPECT_TRUE(differs);
 }
 
-TEST(WrenchSensor, IsLostFromTheFirstInstantOfTheWindowToBeforeItsEnd) {
-  SensorConfig config;
-  EXPECT_FALSE(WrenchSensor(config, 1).Lost(0.0)) << "no window configured";
-  config.wrench_lost_from_s = 1.0;
-  config.wrench_lost_to_s = 2.0;
-  const WrenchSensor sensor(config, 1);
-  EXPECT_FALSE(sensor.Lost(0.999));
-  EXPECT_TRUE(sensor.Lost(1.0));
-  EXPECT_TRUE(sensor.Lost(1.999));
-  EXPECT_FALSE(sensor.Lost(2.0));
-  config.wrench_lost_to_s = -1.0;  // never back
-  EXPECT_FALSE(WrenchSensor(config, 1).Lost(0.999));
-  EXPECT_TRUE(WrenchSensor(config, 1).Lost(1.0));
-  EXPECT_TRUE(WrenchSensor(config, 1).Lost(1e6));
-}
-
 }  // namespace
 }  // namespace reed::plant

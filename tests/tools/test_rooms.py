@@ -28,6 +28,7 @@ ARROWS = {
     "engine": {"run"},
     "campaign": {"engine", "figures", "record", "robots", "run", "show"},
     "worst": {"campaign", "engine", "run"},
+    "faults": {"engine", "record", "run", "show"},
     "paper": {"engine", "figures", "record", "robots", "run", "show"},
     "bode": {"robots", "run", "show"},
     "tune": {"campaign", "engine", "record", "robots", "run", "scenarios", "show"},

@@ -4,7 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from reed_tools.figures import checks, events, metrics, scalars
+from reed_tools.figures import checks, events, faults, metrics, scalars
 from reed_tools.figures.run_data import RunData
 from reed_tools.record import configuration, run_folder
 from reed_tools.record.signals import Signals, join
@@ -23,6 +23,8 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
     verdicts = checks.evaluate(effective["checks"], run_data(effective, recording, signals))
     happened = events.of_run(recording, rate_hz)
     reason = events.reason(happened)
+    injected = faults.of_run(effective, recording, rate_hz)
+    verdicts += faults.checks(injected)
     for check in verdicts:
         if check["name"] == "faults" and not check["ok"] and reason:
             check["why"] = events.in_words(reason)
@@ -48,6 +50,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "loop": {name: getattr(recording.finished_run, name, None) for name in
                  ("heap_allocations", "page_faults", "telemetry_dropped", "scheduler", "memory_locked")},
         "events": happened,
+        "faults": injected,
         "modes": metrics.modes(recording, rate_hz),
         "windows": metrics.windows(signals, rate_hz),
         "parameters": metrics.parameters(recording, [

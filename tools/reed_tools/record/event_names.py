@@ -12,7 +12,8 @@ NAMES = {
     96: "torque", 97: "torque_rate", 98: "normal_speed", 99: "held_measurement", 100: "ramp_down", 101: "stretch",
     200: "controller_present", 201: "controller_restarted", 202: "drive_state", 203: "brakes_released", 204: "brakes_closed",
     205: "enable_refused", 206: "contact_made", 207: "contact_lost", 208: "diverged", 209: "too_slow", 210: "wrench_lost",
-    211: "wrench_back", 212: "host_pause", 213: "another_arm",
+    211: "wrench_back", 212: "host_pause", 213: "another_arm", 214: "fault_begins",
+    215: "fault_ends",
 }
 
 

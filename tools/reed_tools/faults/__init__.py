@@ -1,0 +1,1 @@
+"""Faults to order: what the controller notices of them, how soon, and whether it stays safe."""
