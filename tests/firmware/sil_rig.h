@@ -85,6 +85,7 @@ class SilRig {
   OnTheWay on_the_way;
   std::optional<bus::Frame> injected;  // reaches the controller in the next cycle
   bool commands_lost = false;          // on their way to the drives
+  std::vector<bus::Frame> flood;       // of others, in every cycle to both programs, before their own
 
  private:
   void LetPlantWork() {
@@ -92,8 +93,11 @@ class SilRig {
     if (commands_lost)
       std::erase_if(wire_.plant.inbox(),
                     [](const bus::Frame& frame) { return frame.id == bus::layout::kCommand.id; });
+    std::vector<bus::Frame>& of_plant = wire_.plant.inbox();
+    if (flooded_ != number_) of_plant.insert(of_plant.begin(), flood.begin(), flood.end());
     endpoint_.Poll(0);
     std::vector<bus::Frame>& inbox = wire_.controller.inbox();
+    if (std::exchange(flooded_, number_) != number_) inbox.insert(inbox.begin(), flood.begin(), flood.end());
     if (on_the_way) std::erase_if(inbox, [this](bus::Frame& frame) { return !on_the_way(number_, frame); });
     if (injected) inbox.insert(inbox.begin(), *injected);
     injected.reset();
@@ -106,7 +110,7 @@ class SilRig {
   plant::LockstepEndpoint endpoint_;
   std::unique_ptr<CycleBase> cycle_;
   telemetry::Snapshot snapshot_;
-  std::uint32_t number_ = 0;
+  std::uint32_t number_ = 0, flooded_ = 0;  // no flood in the first cycle
   std::int64_t heap_calls_ = 0;
 };
 

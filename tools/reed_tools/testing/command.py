@@ -15,13 +15,13 @@ from reed_tools.testing.stages import Stage, all_stages
 EXAMPLE = """examples:
   tools/reed test                                      # everything
   tools/reed test test_live force                      # tests whose name contains one of these
-  tools/reed test --long fuzz                          # those of endurance in full: minutes, not seconds"""
+  tools/reed test --long fuzz flood                    # those and the long ones in full: an hour, not seconds"""
 
 
 def add_arguments(parser) -> None:
     parser.add_argument("--ci", action="store_true", help="a test that is skipped fails, but for those that a machine's kernel or rights decide "
                                                           "(tools/reed_tools/testing/skips.py)")
-    parser.add_argument("--long", action="store_true", help="tests of endurance in full: 10^8 broken frames to each receiver")
+    parser.add_argument("--long", action="store_true", help="the long tests, too, and those of endurance in full: 10^8 broken frames to each receiver, 10^4 broken files of each kind")
     parser.add_argument("filters", nargs="*", metavar="FILTER",
                         help="only tests whose name contains one of these, or a stage: layout, tidy, gate, asan, tsan")
 
