@@ -87,6 +87,11 @@ def test_the_stop_for_an_old_wrench_comes_at_twice_its_age_limit():
     assert (row.detected_by, row.fdti_ms) == ("stale_wrench", 20 * PERIOD_MS)
 
 
+def test_an_arm_that_a_fault_keeps_from_starting_is_no_program_that_died():
+    row = row_of("drive_trips", "idle")
+    assert row.executed and row.verdict.startswith("safe") and row.hazard is None
+
+
 def test_a_cell_repeats_by_its_line_and_is_the_same_twice():
     row = row_of("drive_noise")
     assert row.digest == row_of("drive_noise").digest
