@@ -32,7 +32,7 @@ def cell(rows: list[dict]) -> Markup | str:
     worst = min(rows, key=lambda row: ORDER.index(row["class"]))
     by = sorted({row["detected_by"] for row in rows if row["detected_by"]})
     bad = any(row["failure"] for row in rows)
-    text = html.escape(f"{SHORT[worst['class']]} {', '.join(by)}")
+    text = f"{SHORT[worst['class']]}" + "".join(f"<br><small>{html.escape(name)}</small>" for name in by)
     return Markup(f'<span class="fail"><b>{text}</b></span>' if bad else text)
 
 
