@@ -39,7 +39,7 @@ struct JointStateMessage {
 
 struct WrenchMessage {
   std::uint32_t cycle = 0;
-  std::array<double, 3> force_N{};  // environment on robot, base axes, at the tool point
+  std::array<double, 3> force_N{};  // on the tool behind the sensor, sensor's axes
   std::array<double, 3> moment_Nm{};
   bool saturated = false;
 };

@@ -40,6 +40,13 @@ struct Joint : FixedFrame {
   }
 };
 
+/// Between the arm and its tool: the frame of its axes in the last link's, and the tool that hangs on it, which is a part
+/// of the last link.
+struct ForceSensor : FixedFrame {
+  double tool_mass_kg = 0.0;
+  Eigen::Vector3d tool_com_m = Eigen::Vector3d::Zero();  // sensor's frame
+};
+
 /// One row of modified (Craig) Denavit-Hartenberg parameters:
 /// T_{i-1,i} = Rx(alpha) Tx(a) Rz(theta_i + offset) Tz(d), alpha = alpha_{i-1}, a = a_{i-1}.
 struct DhRow {
@@ -87,6 +94,7 @@ struct ArmStructure {
   FixedFrame base;                                // in the world
   std::vector<Joint> joints;                      // from base to tip
   FixedFrame tool;                                // in the last link's frame; its origin is the tool point
+  ForceSensor force_sensor;                       // where one is fitted
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};  // world frame
   // Per joint; empty where the file does not say (a purely kinematic arm).
   std::vector<double> rotor_inertia_kgm2;       // reflected to the joint

@@ -10,6 +10,7 @@ struct SensorData {
   double force_range_N = 200.0;       // beyond: saturated
   double force_noise_N = 0.05;        // standard deviation per axis
   double force_quantum_N = 0.01;      // step of the force reading
+  double moment_range_Nm = 20.0;      // beyond: saturated
 };
 
 }  // namespace reed

@@ -42,6 +42,7 @@ struct SensorConfig : SensorData {
   double moment_noise_Nm = 0.005;
   double moment_quantum_Nm = 0.001;
   Eigen::Vector3d force_bias_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_bias_Nm = Eigen::Vector3d::Zero();
   double wrench_lost_from_s =
       -1.0;  // the wrench frames stop in [from, to) of plant time since the drives were enabled; -1: never
   double wrench_lost_to_s = -1.0;

@@ -37,6 +37,16 @@ void ToolFields(V& v, FixedFrame& c) {
 }
 
 template <typename V>
+void Fields(V& v, ForceSensor& c) {
+  FrameFields(
+      v, c, "origin of the force sensor's frame in the last link's frame; absent: tool.xyz_m",
+      "how its axes are turned there: forces and moments on the bus are in them; absent: tool.rpy_rad");
+  v.Number("tool_mass_kg", c.tool_mass_kg, {"kg", 0.0, 100.0},
+           "of the tool behind the sensor, a part of the last link: its weight is taken off the reading");
+  v.Vector("tool_com_m", c.tool_com_m, kArmLength, "its centre of mass, sensor's frame");
+}
+
+template <typename V>
 void Fields(V& v, Joint& c) {
   v.Text("name", c.name, "of the joint");
   v.Text("frame", c.frame, "name of the frame of the link that it moves; absent: link_1, link_2 ...");

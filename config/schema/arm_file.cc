@@ -95,6 +95,13 @@ void CheckGravity(Reader& in, const ArmDescription& arm) {
                 "; allowed: 0, or 1.5 ... 30 m/s² (a vector in m/s² in the world frame, not in units of g)");
 }
 
+void CheckToolMass(Reader& in, const ArmDescription& arm) {
+  const double link_kg = arm.bodies.back().mass_kg;
+  if (arm.force_sensor.tool_mass_kg > link_kg)
+    in.Fail("force_sensor", "tool_mass_kg " + ToText(arm.force_sensor.tool_mass_kg) +
+                                " kg is a part of the last link, which has " + ToShortText(link_kg) + " kg");
+}
+
 /// The truth has a place of its own; files from before it keep it among the other keys.
 Reader& PlaceOf(Reader& in, Reader& truth, const char* old_key, const char* key) {
   if (in.Has(old_key) && truth.Has(key))
@@ -118,6 +125,7 @@ ArmDescription ReadArm(const Document& doc, toml::table& table, const std::strin
   Reader& bodies = PlaceOf(in, truth, "bodies", "bodies");
   if (bodies.Has("bodies") || arm.known.empty()) ReadBodies(bodies, arm);
   ReadBaseAndTool(in, arm);
+  ReadForceSensor(in, arm);
   ArmFields(in, arm);
   CheckGravity(in, arm);
   CompleteLimits(in, arm);
@@ -128,6 +136,7 @@ ArmDescription ReadArm(const Document& doc, toml::table& table, const std::strin
   if (old_place && arm.coulomb_declared_Nm.empty()) arm.coulomb_declared_Nm = arm.coulomb_Nm;
   TruthFields(truth, arm);
   ReadSections(in, arm);
+  CheckToolMass(in, arm);
   in.RefuseUnknown();
   truth.RefuseUnknown();
   return arm;

@@ -81,7 +81,7 @@ toml::table* SectionOf(Reader& in, const char* key) {
 std::vector<Joint> ReadJoints(Reader& in) {
   if (in.Has("joint") && in.Has("dh")) in.Fail("dh", "stands beside [[joint]]; allowed: one of them");
   const char* key = in.Has("joint") ? "joint" : "dh";
-  const std::vector<Joint> joints = in.Has("joint") ? ReadTables(in) : ReadDh(in);
+  std::vector<Joint> joints = in.Has("joint") ? ReadTables(in) : ReadDh(in);
   if (joints.empty())
     in.Fail(key, "missing; one row [alpha_{i-1} rad, a_{i-1} m, d_i m] per joint, or one [[joint]] each");
   if (joints.size() > static_cast<std::size_t>(kMaxJoints))
@@ -101,6 +101,13 @@ void ReadBaseAndTool(Reader& in, ArmDescription& arm) {
   }
   ToolFields(tool, arm.tool);
   tool.RefuseUnknown();
+}
+
+void ReadForceSensor(Reader& in, ArmDescription& arm) {
+  static_cast<FixedFrame&>(arm.force_sensor) = arm.tool;
+  Reader sensor(in.document(), SectionOf(in, "force_sensor"), in.KeyName("force_sensor"));
+  Fields(sensor, arm.force_sensor);
+  sensor.RefuseUnknown();
 }
 
 }  // namespace reed

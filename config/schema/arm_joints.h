@@ -17,4 +17,7 @@ std::vector<Joint> ReadJoints(Reader& in);
 /// [base] and [tool], the latter also under its older names.
 void ReadBaseAndTool(Reader& in, ArmDescription& arm);
 
+/// [force_sensor], after the tool, whose frame it has where nothing else is said.
+void ReadForceSensor(Reader& in, ArmDescription& arm);
+
 }  // namespace reed

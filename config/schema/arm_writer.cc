@@ -54,12 +54,14 @@ toml::array DhRows(const std::vector<Joint>& joints) {
 }
 
 void Geometry(ArmDescription& arm, toml::table& out) {
-  toml::table base, tool;
-  Writer base_writer(base), tool_writer(tool);
+  toml::table base, tool, sensor;
+  Writer base_writer(base), tool_writer(tool), sensor_writer(sensor);
   BaseFields(base_writer, arm.base);
   ToolFields(tool_writer, arm.tool);
   out.insert("base", std::move(base));
   out.insert("tool", std::move(tool));
+  Fields(sensor_writer, arm.force_sensor);
+  out.insert("force_sensor", std::move(sensor));
   if (arm.IsOfDhRows())
     out.insert("dh", DhRows(arm.joints));
   else

@@ -111,6 +111,7 @@ std::string ArmKeyReference() {
              "another way to write the joints: modified (Craig) Denavit-Hartenberg rows, "
              "T_i = Rx(alpha_(i−1)) Tx(a_(i−1)) Rz(θ_i + offset_i) Tz(d_i); offset_i may be left out");
   ToolFields(tool, arm.tool);
+  List<ForceSensor>(out, "force_sensor");
   lister.Row("param_names", "up to " + std::to_string(kMaxParameters) + " names", "each link's mass",
              "the uncertain structural parameters p of (28)");
   lister.Row("p_nom", "one per name, within the box", "truth.p", "what the controller starts from");

@@ -79,11 +79,31 @@ class Rules : public RuleContext {
   /// A reading that saturates below the limit would never exceed it.
   void ForceLimitIsMeasured() const {
     const double bias = s_.sensors.force_bias_N.cwiseAbs().maxCoeff();
-    if (s_.limits.contact_force_N >= s_.sensors.force_range_N - bias)
+    const double weight = s_.arm.force_sensor.tool_mass_kg * s_.arm.gravity_mps2.norm();
+    const double left = s_.sensors.force_range_N - bias - weight;
+    if (s_.limits.contact_force_N >= left)
       Fail("limits.contact_force_N",
-           "rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|: " +
-               ToText(s_.limits.contact_force_N) + " is not below " +
-               ToShortText(s_.sensors.force_range_N - bias) + " N, where the reading saturates");
+           std::string("rule contact_force_N < sensors.force_range_N - largest |sensors.force_bias_N|") +
+               (weight > 0.0 ? " - weight of the tool behind the sensor" : "") + ": " +
+               ToText(s_.limits.contact_force_N) + " is not below " + ToShortText(left) +
+               " N, where the reading saturates");
+  }
+
+  /// The contact force acts at the tool point, away from the sensor.
+  void ForceLimitsMomentIsMeasured() const {
+    if (!s_.sensors.wrench) return;
+    const ForceSensor& sensor = s_.arm.force_sensor;
+    const double bias = s_.sensors.moment_bias_Nm.cwiseAbs().maxCoeff();
+    const double lever_m = (s_.arm.tool.xyz_m - sensor.xyz_m).norm();
+    const double weight_Nm = sensor.tool_mass_kg * s_.arm.gravity_mps2.norm() * sensor.tool_com_m.norm();
+    const double moment_Nm = lever_m * s_.limits.contact_force_N + weight_Nm + bias;
+    if (moment_Nm >= s_.sensors.moment_range_Nm)
+      Fail("sensors.moment_range_Nm",
+           "rule contact_force_N · distance from the force sensor to the tool point + moment of the tool's "
+           "weight + "
+           "largest |moment_bias_Nm| < moment_range_Nm: " +
+               ToShortText(moment_Nm) + " is not below " + ToText(s_.sensors.moment_range_Nm) +
+               " N·m, where the reading saturates");
   }
 
   void AgesAreGraded() const {
@@ -205,6 +225,7 @@ void CheckRules(const Document& doc, const Scenario& scenario, bool has_law) {
   rules.SizesOfLaw();
   rules.LawIsKnown();
   rules.ForceLimitIsMeasured();
+  rules.ForceLimitsMomentIsMeasured();
   rules.AgesAreGraded();
   rules.ForceLoopIsStable();
   rules.NoChatter();

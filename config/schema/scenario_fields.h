@@ -59,6 +59,8 @@ void Fields(V& v, SensorData& c) {
            "the reading saturates here");
   v.Number("force_noise_N", c.force_noise_N, {"N", 0, 100}, "standard deviation per axis");
   v.Number("force_quantum_N", c.force_quantum_N, {"N", 0, 10}, "step of the force reading");
+  v.Number("moment_range_Nm", c.moment_range_Nm, {"N·m", 0.1, bus::layout::kWrenchMomentZ.max},
+           "the reading saturates here");
 }
 
 template <typename V>
@@ -67,7 +69,9 @@ void Fields(V& v, SensorConfig& c) {
   v.Number("moment_noise_Nm", c.moment_noise_Nm, {"N·m", 0, 100}, "standard deviation per axis");
   v.Number("moment_quantum_Nm", c.moment_quantum_Nm, {"N·m", 0, 10}, "step of the moment reading");
   v.Vector("force_bias_N", c.force_bias_N, {"N", -100, 100},
-           "constant error of the force reading, world axes");
+           "constant error of the force reading, axes of the sensor");
+  v.Vector("moment_bias_Nm", c.moment_bias_Nm, {"N·m", -100, 100},
+           "of the moment reading, axes of the sensor");
   v.Number("wrench_lost_from_s", c.wrench_lost_from_s, {"s", -1, 3600},
            "no wrench frames from here, after the drives were enabled; -1: never");
   v.Number("wrench_lost_to_s", c.wrench_lost_to_s, {"s", -1, 3600},

@@ -43,7 +43,8 @@ class Visitor {
 template <typename Each>
 void Visit(Visitor<Each>& visit, model::ArmModel<N, P>& arm) {
   for (int i = 0; i < N; ++i) visit.All(arm.mount_R[i], arm.mount_p[i]);
-  visit.All(arm.d, arm.gravity, arm.tool_offset, arm.tool_rotation);
+  visit.All(arm.d, arm.gravity, arm.tool_offset, arm.tool_rotation, arm.sensor_rotation, arm.sensor_to_tool,
+            arm.sensor_tool_mass, arm.sensor_tool_com);
   for (int i = 0; i <= N; ++i) visit(arm.first_shape[i]);
   for (int j = 0; j < arm.first_shape[N]; ++j) {
     model::UnitShape& shape = arm.shape[j];

@@ -21,6 +21,10 @@ reed::Settings<N, P> TwoLinks() {
   s.arm.gravity << 0.0, 0.0, -9.81;
   s.arm.tool_offset << 1.0, 0.0, 0.0;
   s.arm.tool_rotation.setIdentity();
+  s.arm.sensor_rotation.setIdentity();
+  s.arm.sensor_to_tool.setZero();
+  s.arm.sensor_tool_mass = 0.0;
+  s.arm.sensor_tool_com.setZero();
   const reed::model::MassMoments end(1.0, Eigen::Vector3d::UnitX(), Eigen::Matrix3d::Zero());
   for (int i = 0; i < N; ++i) {
     s.arm.first_shape[i] = i;

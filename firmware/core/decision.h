@@ -22,6 +22,7 @@ struct Decision {
   model::Vec<N> tau_law = model::Vec<N>::Zero();
   Eigen::Vector3d tip_plan = Eigen::Vector3d::Zero();
   double f = 0.0;       // normal force as known, N: tared sensor or observer
+  model::Wrench felt;   // environment on the tool as the tared sensor has it, at the tool point, world axes
   Collision collision;  // joint -1: none in this cycle
 };
 

@@ -15,8 +15,9 @@ struct Measurement {
   Eigen::Matrix<double, N, 1> torque = Eigen::Matrix<double, N, 1>::Zero();     // N·m, applied by the drives
   std::array<DriveState, static_cast<std::size_t>(N)> drive{};
   std::array<int, static_cast<std::size_t>(N)> age{};  // cycles, 0: of this cycle
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N, environment on robot, world axes, at the tool point
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m
+  Eigen::Vector3d force =
+      Eigen::Vector3d::Zero();  // N, of environment and tool weight on the tool, sensor's axes
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m, about the sensor's origin
   bool wrench_saturated = false;                     // an axis is at the end of the sensor's range
   int wrench_age = kNever;                           // cycles
   bool foreign_controller = false;                   // somebody else sends SYNC or COMMAND

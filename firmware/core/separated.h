@@ -51,14 +51,19 @@ class Separated {
     const bool full = workload == Workload::kFull;
     Decision<N>& d = decision_;
     model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
+    sensor_.Turn(arm_, kin_);
 
     disturbance_.Update(measured, kin_, adaptive_.kappa_hat, gains_.friction_speed);
     d.plan = path_.At(t_s);
     d.tip_plan = PlannedTip(d.plan);
     if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
-    d.f = normal_force_.Step(d.source, measured.force, control::EstimateTipForce<N>(kin_.J, disturbance_.r()),
-                             force_.in_contact(), kin_.J.template topRows<3>() * measured.theta_dot);
+    d.f = normal_force_.Step(d.source, sensor_.Read(measured.force, normal_),
+                             control::EstimateTipForce<N>(kin_.J, disturbance_.r()), force_.in_contact(),
+                             kin_.J.template topRows<3>() * measured.theta_dot);
+    d.felt = measured.wrench_age < Measurement<N>::kNever
+                 ? sensor_.AtTool(normal_force_.Felt(Sensed(measured)))
+                 : model::Wrench{};
     ScaleBandwidth(d.source);
     d.force = active && d.source != ForceSource::kNone ? SeekForce(d, t_s) : ForceDemand{};
     d.desired = active
@@ -92,10 +97,12 @@ class Separated {
 
   /// While the arm is still and free: the force sensor's zero, the observer's start, no adaptation.
   void Tare(const Measurement<N>& measured) noexcept {
-    normal_force_.Tare(measured.force, measured.wrench_age <= kUsableWrenchAge);
+    model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
+    sensor_.Turn(arm_, kin_);
+    normal_force_.Tare(Sensed(measured),
+                       measured.wrench_age <= kUsableWrenchAge && !measured.wrench_saturated);
     force_.Reset();
     deflection_.Reset();
-    model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
     disturbance_.Reset(kin_, measured.theta_dot);
     collision_.Reset(disturbance_.r());
   }
@@ -104,7 +111,7 @@ class Separated {
 
   /// The force on the wall, N, for the limit: the tared sensor; without it the observer, while the arm presses.
   double ContactForce(const Measurement<N>& measured, bool sensed) const noexcept {
-    if (sensed) return normal_force_.Felt(measured.force).norm();
+    if (sensed) return normal_force_.Felt(Sensed(measured)).F.norm();
     return decision_.source == ForceSource::kObserver ? std::abs(decision_.f) : 0.0;
   }
 
@@ -118,10 +125,15 @@ class Separated {
   /// A wrench that always comes a cycle late is usable here: the reading of an arm at rest is the same a cycle later.
   static constexpr int kUsableWrenchAge = 2;
 
+  /// The last reading without the tool's weight in the last pose.
+  model::Wrench Sensed(const Measurement<N>& measured) const noexcept {
+    return sensor_.WithoutWeight({measured.force, measured.moment});
+  }
+
   ForceSource Source(const Measurement<N>& measured, double t_s, bool active) noexcept {
     const ForceSource source = source_.Step(measured.wrench_age, active && force_.Wanted(t_s));
     if (source_.returning() && measured.wrench_age == 0)
-      normal_force_.Retare(measured.force, source_.fresh_in_row(), !force_.in_contact());
+      normal_force_.Retare(Sensed(measured), source_.fresh_in_row(), !force_.in_contact());
     return source;
   }
 
@@ -184,6 +196,7 @@ class Separated {
   SourceSelector source_;
   ForceMode force_;
   StretchGuard<N> stretch_;
+  MountedSensor sensor_;
   NormalForce normal_force_;
   DeflectionCompensation<N, P> deflection_;
   AdaptiveState<N, P> adaptive_;

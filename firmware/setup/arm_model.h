@@ -135,6 +135,10 @@ ArmModel<N, P> ArmModelFrom(const NominalArm& arm) {
   out.gravity = arm.gravity_mps2;
   out.tool_offset = arm.tool.xyz_m;
   out.tool_rotation = arm.tool.rotation();
+  out.sensor_rotation = arm.force_sensor.rotation();
+  out.sensor_to_tool = out.sensor_rotation.transpose() * (arm.tool.xyz_m - arm.force_sensor.xyz_m);
+  out.sensor_tool_mass = arm.force_sensor.tool_mass_kg;
+  out.sensor_tool_com = arm.force_sensor.tool_com_m;
   for (int i = 0; i < N; ++i) {
     const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
     out.mount_R[i] = joint.rotation();

@@ -97,6 +97,7 @@ class Builder {
         config_(config),
         bends_(config.flexible_links && !arm.sections.empty()),
         output_(PlacementOf(arm.base).Inverse()) {
+    chain_.base = arm.base.xyz_m;
     chain_.gravity = arm.gravity_mps2;
   }
 
@@ -142,6 +143,9 @@ class Builder {
             std::to_string(arm_.sections.size()) + " sections are given, its members are " +
                 std::to_string(section_));
     chain_.tool = output_.Inverse() * Shift(arm_.tool.xyz_m);
+    chain_.force_sensor = output_.Inverse() * PlacementOf(arm_.force_sensor);
+    chain_.sensed_mass = arm_.force_sensor.tool_mass_kg;
+    chain_.sensed_com = arm_.force_sensor.tool_com_m;
     for (Element& element : chain_.elements) {
       element.mount_turns = !element.mount.R.isIdentity(kNothing);
       element.mount_shifts = !element.mount.p.isZero(kNothing);

@@ -45,8 +45,12 @@ struct ArmChain {
   std::vector<Element> elements;
   std::vector<Drivetrain> drivetrains;  // one per joint
   std::vector<Member> members;
-  Placement tool;                                     // tool point in the last output frame
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // m/s², world frame
+  Placement tool;                                        // tool point in the last output frame
+  Placement force_sensor;                                // its frame in the last output frame
+  double sensed_mass = 0.0;                              // kg, of the tool behind the force sensor
+  Eigen::Vector3d sensed_com = Eigen::Vector3d::Zero();  // m, in the sensor's frame
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();        // m, where the arm begins, world frame
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();     // m/s², world frame
 
   int dof() const { return static_cast<int>(drivetrains.size()); }
   /// Motor angles, joint angles, elastic coordinates of every member.

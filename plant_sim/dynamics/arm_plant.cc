@@ -10,6 +10,7 @@
 #include "reed/plant/dynamics/centre_line.h"
 #include "reed/plant/dynamics/disturbance.h"
 #include "reed/plant/dynamics/equilibrium.h"
+#include "reed/plant/dynamics/mounted_force_sensor.h"
 #include "reed/plant/dynamics/rosenbrock.h"
 
 namespace reed::plant {
@@ -46,6 +47,7 @@ class ArmPlant::Impl {
         integrator_(equations_.size()),
         brakes_(BuildBrakes(chain_)),
         acting_(brakes_.size()),
+        sensor_(chain_),
         centre_line_(chain_, kShapeSamples) {
     if (!(config_.max_step_s > 0.0)) throw std::invalid_argument("plant.max_step_s must be positive");
     const int n = chain_.dof();
@@ -69,7 +71,7 @@ class ArmPlant::Impl {
     schedule_from_ = kNever;
     closed_ = 0;
     sick_coordinate_ = -1;
-    equations_.SetPayload(0.0);
+    SetPayload(0.0);
     loaded_ = false;
     x_.setZero();
     x_.head(n) = x_.segment(n, n) = motor_angle_rad;
@@ -78,6 +80,7 @@ class ArmPlant::Impl {
     // Structural damping: the given ratio at the lowest frequency, proportional to stiffness beyond it.
     const double lowest_hz = LockedMotorModes(equations_).frequency_hz[0];
     SetStructuralDamping(chain_, 2.0 * config_.damping_ratio / (2.0 * std::numbers::pi * lowest_hz));
+    sensor_.Rest();
     UpdateTruth();
     rest_rad_ = motor_angle_rad;
     untouched_ = true;
@@ -93,7 +96,9 @@ class ArmPlant::Impl {
       TakePayload();
       begin_.disturbance = disturbance_.Force(t_, t_ - schedule_from_);
       end_.disturbance = disturbance_.Force(t_ + h, t_ + h - schedule_from_);
+      sensor_.Begin(equations_);
       integrator_.Step(equations_, begin_, end_, h, x_, x_dot_);
+      sensor_.End(equations_, h);
       t_ += h;
       if (closed_ != 0)
         for (std::size_t j = 0; j < acting_.size(); ++j) acting_[j].Follow(x_[static_cast<Eigen::Index>(j)]);
@@ -160,8 +165,13 @@ class ArmPlant::Impl {
 
   void TakePayload() {
     if (loaded_ || config_.payload_step_kg == 0.0 || t_ - schedule_from_ < config_.payload_step_s) return;
-    equations_.SetPayload(config_.payload_step_kg);
+    SetPayload(config_.payload_step_kg);
     loaded_ = true;
+  }
+
+  void SetPayload(double mass_kg) {
+    equations_.SetPayload(mass_kg);
+    sensor_.SetPayload(mass_kg);
   }
 
   void Diagnose() {
@@ -179,7 +189,10 @@ class ArmPlant::Impl {
     truth_.tip_m = equations_.tool_position();
     truth_.tip_velocity_mps = equations_.tool_velocity();
     truth_.contact_force_N = equations_.contact().force + disturbance_.Force(t_, t_ - schedule_from_);
-    truth_.sensed_force_N = disturbance_.sensed() ? truth_.contact_force_N : equations_.contact().force;
+    const Wrench sensed =
+        sensor_.Feel(equations_, disturbance_.sensed() ? truth_.contact_force_N : equations_.contact().force);
+    truth_.sensed_force_N = sensed.force;
+    truth_.sensed_moment_Nm = sensed.moment;
     truth_.normal_force_N = equations_.contact().normal_force;
     truth_.gap_m = equations_.contact().gap;
     truth_.kinetic_J = equations_.KineticEnergy();
@@ -194,6 +207,7 @@ class ArmPlant::Impl {
   EquationsOfMotion equations_;
   Rosenbrock integrator_;
   std::vector<Brake> brakes_, acting_;  // as built; as they are now, an open one does nothing
+  MountedForceSensor sensor_;
   CentreLine centre_line_;
   VectorXd x_, x_dot_, undeformed_;
   Load begin_, end_;

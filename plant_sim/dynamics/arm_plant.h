@@ -21,8 +21,10 @@ struct Truth {
   Eigen::Vector3d tip_m = Eigen::Vector3d::Zero(), tip_velocity_mps = Eigen::Vector3d::Zero();
   Eigen::Vector3d contact_force_N =
       Eigen::Vector3d::Zero();  // environment (wall and disturbance) on the robot, at the tool point
-  Eigen::Vector3d sensed_force_N = Eigen::Vector3d::Zero();  // of it, what acts in front of the wrist sensor
-  double normal_force_N = 0.0;                               // of the wall alone
+  // What the force sensor feels, in its axes, about its origin: of the environment what acts in front of it, and weight and
+  // inertia of tool and payload behind it.
+  Eigen::Vector3d sensed_force_N = Eigen::Vector3d::Zero(), sensed_moment_Nm = Eigen::Vector3d::Zero();
+  double normal_force_N = 0.0;  // of the wall alone
   double gap_m = 1e9;
   double kinetic_J = 0.0, elastic_J = 0.0, potential_J = 0.0;
 };

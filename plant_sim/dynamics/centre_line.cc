@@ -17,6 +17,7 @@ CentreLine::CentreLine(const ArmChain& chain, int samples)
     sections_.emplace_back(member.length, member.length);
   }
   points_.resize(2 + chain.elements.size() + chain.members.size() * samples_, Vector3d::Zero());
+  points_.front() = chain.base;
 }
 
 const std::vector<Vector3d>& CentreLine::At(const VectorXd& x) {

@@ -60,6 +60,13 @@ class EquationsOfMotion {
   const Eigen::Vector3d& tool_velocity() const { return tool_velocity_; }
   const Wall::Contact& contact() const { return contact_; }
 
+  /// The last output frame in the world, and the velocity of a point fixed to it, world frame.
+  const Placement& last_frame() const { return nodes_.back().world; }
+  Eigen::Vector3d VelocityOf(const Eigen::Vector3d& point) const {
+    const Node& last = nodes_.back();
+    return last.world.R * (last.motion.velocity + last.motion.omega.cross(point));
+  }
+
   double KineticEnergy() const;  // (17) and 1/2 J_m θ'²
   double GravityEnergy() const;  // E_p1, zero with every mass at the base origin
   double ElasticEnergy() const;  // E_p2 + E_p3

@@ -54,8 +54,7 @@ Measurement Robot::Measure() {
     m.joints[i].state = drives_.state();
   }
   sampled_s_ = time_s_;
-  // A wall and a disturbance act on a point: no moment about the tool point.
-  m.wrench = wrench_.Measure(truth.sensed_force_N, Eigen::Vector3d::Zero());
+  m.wrench = wrench_.Measure(truth.sensed_force_N, truth.sensed_moment_Nm);
   m.wrench_lost = !wrench_.fitted();
   return m;
 }

@@ -33,8 +33,11 @@ WrenchReading WrenchSensor::Measure(const Eigen::Vector3d& force_N,
     reading.force_N[axis] = std::clamp(rounded_N, -config_.force_range_N, config_.force_range_N);
     reading.saturated |= std::abs(rounded_N) > config_.force_range_N;
 
-    const double raw_Nm = moment_Nm[axis] + config_.moment_noise_Nm * moment_noise_.Normal();
-    reading.moment_Nm[axis] = Quantize(raw_Nm, config_.moment_quantum_Nm);
+    const double raw_Nm =
+        moment_Nm[axis] + config_.moment_bias_Nm[axis] + config_.moment_noise_Nm * moment_noise_.Normal();
+    const double rounded_Nm = Quantize(raw_Nm, config_.moment_quantum_Nm);
+    reading.moment_Nm[axis] = std::clamp(rounded_Nm, -config_.moment_range_Nm, config_.moment_range_Nm);
+    reading.saturated |= std::abs(rounded_Nm) > config_.moment_range_Nm;
   }
   return reading;
 }

@@ -1,4 +1,4 @@
-// Wrist wrench: force and moment of the environment on the robot, base axes, at the tool point. RT: safe.
+// Wrist wrench in the sensor's own axes: from what it feels to what it says. RT: safe.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace reed::plant {
 struct WrenchReading {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
-  bool saturated = false;  // a force axis is at its range
+  bool saturated = false;  // an axis is at the end of its range
 };
 
 class WrenchSensor {

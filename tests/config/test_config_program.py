@@ -203,6 +203,7 @@ def test_joints_base_and_tool_read_back_as_they_were_written(tmp_path):
     effective = tomllib.loads(first.read_text())["arm"]
     for key in ("joint", "base", "tool"):
         assert effective[key] == arm[key]
+    assert effective["force_sensor"] == arm["tool"] | {"tool_mass_kg": 0.0, "tool_com_m": [0.0, 0.0, 0.0]}, "in the tool's frame where nothing is said"
     assert "dh" not in effective and "sections" not in effective
     assert run("--config", str(first), "--write", str(second)) == (0, "")
     assert second.read_text() == first.read_text()
@@ -227,6 +228,7 @@ JOINT_DEFECTS = {
     "no joints": (lambda arm: arm["joint"].clear(), ["arm.joint", "missing"]),
     "rows beside joints": (lambda arm: arm.update(dh=[[0, 0, 0]] * 5), ["arm.dh", "one of them"]),
     "a tool given twice": (lambda arm: arm.update(tool_offset=[0, 0, 0.1]), ["arm.tool_offset", "twice", "arm.tool.xyz_m"]),
+    "a tool heavier than its link": (lambda arm: arm.update(force_sensor={"tool_mass_kg": 1.2}), ["arm.force_sensor", "tool_mass_kg 1.2", "0.9 kg"]),
     "a base that is no section": (lambda arm: arm.update(base=[0, 0, 0]), ["arm.base", "expected a section"]),
     "sections beside links that are skew": (lambda arm: arm.update(sections=tomllib.loads(ARM)["sections"]), ["arm.sections", "joint 1", "allowed"]),
 }
@@ -368,7 +370,7 @@ def test_the_controllers_half_does_not_change_with_the_truth(tmp_path):
     """Every true value is moved; what is written for the controller stays the same text."""
     moved = {"arm.truth.p": "[1.0,0.2,0.06,0.5,0.6,0.25]", "arm.truth.coulomb": "0.01", "plant.stiffness_scale": "0.9",
              "plant.friction_scale": "2", "plant.payload_step_kg": "0.3", "drives.torque_bits": "12", "sensors.force_bias_N": "[0,0,3]",
-             "sensors.moment_noise_Nm": "0.2", "sensors.wrench_lost_from_s": "1.0", "sensors.wrench_lost_to_s": "2.0",
+             "sensors.moment_noise_Nm": "0.2", "sensors.moment_bias_Nm": "[0.1,0,0]", "sensors.wrench_lost_from_s": "1.0", "sensors.wrench_lost_to_s": "2.0",
              "wall.offset_m": "0.004", "wall.stiffness_Npm": "2e4", "wall.friction": "0.4", "disturbance.bias_N": "[1,2,3]"}
     arm = tmp_path / "a5.toml"  # says what is known of the links by itself: nothing but the parameters
     known = "[[known_bodies]]\nmass = 0.0\n" * 5
@@ -386,7 +388,7 @@ def test_the_halves_hold_nothing_of_each_other_and_are_read_back_unchanged(tmp_p
     knows, is_so = tomllib.loads(controller.read_text()), tomllib.loads(plant.read_text())
     assert not set(TRUTHS) & set(knows) and not {"truth", "bodies", "coulomb", "p_true"} & set(knows["arm"])
     assert set(knows["wall"]) == {"present", "point_m", "normal"}
-    assert set(knows["sensors"]) == {"wrench", "encoder_bits", "velocity_filter_hz", "force_range_N", "force_noise_N", "force_quantum_N"}
+    assert set(knows["sensors"]) == {"wrench", "encoder_bits", "velocity_filter_hz", "force_range_N", "force_noise_N", "force_quantum_N", "moment_range_Nm"}
     assert knows["arm"]["coulomb_nominal"] == [0.15, 0.15, 0.1, 0.05, 0.025]  # the share that is declared as known
     assert knows["arm"]["coulomb_declared"] == [0.3, 0.3, 0.2, 0.1, 0.05]
     assert not {"control", "force", "limits", "checks"} & set(is_so) and "legs" not in is_so["reference"]

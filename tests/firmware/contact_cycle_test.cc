@@ -29,7 +29,7 @@ double LargestForce(SilRig& rig, double until_s) {
 
 TEST(ContactForceLimit, JudgesWhatTheWallFeelsAndNotABiasThatHidesIt) {
   Scenario scenario = PressKnown();
-  scenario.sensors.force_bias_N = {0.0, 0.0, -59.0};
+  scenario.sensors.force_bias_N = {0.0, 0.0, 59.0};  // the hand points down, and with it z of the sensor
   scenario.force.desired_N = 75.0;
   SilRig rig(scenario);
   EXPECT_LT(LargestForce(rig, 2.9), 62.0);
@@ -38,7 +38,7 @@ TEST(ContactForceLimit, JudgesWhatTheWallFeelsAndNotABiasThatHidesIt) {
 
 TEST(ContactForceLimit, ABiasIsNoForceOfTheWall) {
   Scenario scenario = PressKnown();
-  scenario.sensors.force_bias_N = {0.0, 0.0, 55.0};
+  scenario.sensors.force_bias_N = {0.0, 0.0, -55.0};
   SilRig rig(scenario);
   EXPECT_LT(LargestForce(rig, 2.9), 10.0);
   EXPECT_EQ(rig.mode(), Mode::kActive) << protect::Text(static_cast<int>(rig.trip()));
@@ -47,11 +47,83 @@ TEST(ContactForceLimit, ABiasIsNoForceOfTheWall) {
 
 TEST(ContactForceLimit, ASensorAtTheEndOfItsRangeStopsTheArm) {
   Scenario scenario = PressKnown();
-  scenario.sensors.force_bias_N = {0.0, 0.0, 100.0};
+  scenario.sensors.force_bias_N = {0.0, 0.0, -100.0};
   scenario.sensors.force_range_N = 104.0;  // it can measure no more than 4 N of the wall
   SilRig rig(scenario);
   EXPECT_LT(LargestForce(rig, 2.9), 10.0);
   EXPECT_EQ(rig.trip(), Reason::kWrenchRange);
+}
+
+TEST(ContactForceLimit, ASensorAtTheEndOfItsRangeIsNoZero) {
+  Scenario scenario = PressKnown();
+  scenario.sensors.force_bias_N = {0.0, 0.0, 100.0};
+  scenario.sensors.force_range_N = 90.0;
+  SilRig rig(scenario);
+  EXPECT_FALSE(rig.RunActive(0.001));
+  EXPECT_EQ(rig.trip(), Reason::kWrenchRange) << "before the brakes open";
+  EXPECT_EQ(rig.trip_place().value, 90.0);
+  EXPECT_FALSE(SilRig(scenario, false).RunActive(0.001)) << "an arm that shall not start waits";
+}
+
+Scenario PressWithTurnedSensor() {
+  Scenario scenario = PressKnown();
+  scenario.arm.force_sensor.xyz_m = {0.0, 0.05, -0.06};
+  scenario.arm.force_sensor.rpy_rad = {0.4, -1.1, 2.0};
+  return scenario;
+}
+
+TEST(TurnedSensor, PressesAsOneThatIsFlushWithTheTool) {
+  const auto exact = [](Scenario scenario) {
+    scenario.sensors.force_noise_N = scenario.sensors.force_quantum_N = 0.0;
+    return scenario;
+  };
+  SilRig turned(exact(PressWithTurnedSensor())), flush(exact(PressKnown()));
+  ASSERT_TRUE(turned.RunActive(0.5) && flush.RunActive(0.5));
+  double largest_moment = 0.0;
+  for (int k = 0; k < 1500; ++k) {
+    turned.Run();
+    flush.Run();
+    ASSERT_NEAR(turned.truth().normal_force, flush.truth().normal_force, 1e-3);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      ASSERT_NEAR(turned.snapshot().control.tip_force[i], flush.snapshot().control.tip_force[i], 1e-3);
+      largest_moment = std::max(largest_moment, std::abs(turned.snapshot().measured.moment[i]));
+    }
+  }
+  EXPECT_GT(flush.truth().normal_force, 7.0);
+  EXPECT_GT(largest_moment, 0.3) << "8 N, 0.05 m beside the tool point";
+}
+
+TEST(TurnedSensor, WithAToolBehindItAndABiasMeasuresWhatTheWallFeels) {
+  Scenario scenario = PressWithTurnedSensor();
+  scenario.arm.force_sensor.tool_mass_kg = 0.5;
+  scenario.arm.force_sensor.tool_com_m = {0.01, 0.0, 0.03};
+  scenario.sensors.force_bias_N = {3.0, -2.0, 4.0};
+  scenario.sensors.moment_bias_Nm = {0.2, 0.1, -0.3};
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.0));
+  double square_sum = 0.0;
+  for (int k = 0; k < 990; ++k) {
+    rig.Run();
+    square_sum += std::pow(rig.truth().normal_force - rig.snapshot().control.f_d, 2);
+  }
+  EXPECT_LT(std::sqrt(square_sum / 990), 0.03 * 8.0);
+}
+
+TEST(HangingArm, PressesWithItsBaseTurned) {
+  Scenario scenario = PressKnown();
+  scenario.arm.base.xyz_m = {0.0, 0.0, 2.0};
+  scenario.arm.base.rpy_rad = {3.141592653589793, 0.0, 0.0};  // y and z point the other way
+  scenario.wall.point_m = Eigen::Vector3d(0.0, 0.0, 2.0) +
+                          scenario.arm.base.rotation() * LoadScenario("press_known").wall.point_m;
+  scenario.wall.normal = scenario.arm.base.rotation() * scenario.wall.normal;
+  for (ReferenceLeg& leg : scenario.reference.legs) {
+    leg.by_m = scenario.arm.base.rotation() * leg.by_m;
+    leg.amplitude_m = scenario.arm.base.rotation() * leg.amplitude_m;
+  }
+  SilRig rig(scenario);
+  ASSERT_TRUE(rig.RunActive(2.9));
+  EXPECT_NEAR(rig.truth().normal_force, 8.0, 0.4);
 }
 
 TEST(ContactForceLimit, HoldsForTheObservedForceToo) {

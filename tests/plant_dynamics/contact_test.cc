@@ -179,7 +179,7 @@ TEST(Disturbance, PushesTheArm) {
   for (int i = 0; i < 500; ++i) plant.Advance(VectorXd::Zero(5), true, 1e-3);
   EXPECT_GT(plant.truth().tip_m.y(), before + 3e-4);
   EXPECT_EQ(plant.truth().contact_force_N.y(), 5.0);
-  EXPECT_EQ(plant.truth().sensed_force_N, plant.truth().contact_force_N);
+  EXPECT_NEAR(plant.truth().sensed_force_N.norm(), 5.0, 1e-12) << "in the axes of the sensor";
 }
 
 TEST(Disturbance, BehindTheSensorPushesTheArmAsMuchAndIsNotSensed) {
@@ -195,7 +195,7 @@ TEST(Disturbance, BehindTheSensorPushesTheArmAsMuchAndIsNotSensed) {
   }
   EXPECT_EQ(in_front.truth().tip_m, behind.truth().tip_m);
   EXPECT_EQ(in_front.truth().contact_force_N, behind.truth().contact_force_N);
-  EXPECT_EQ(in_front.truth().sensed_force_N.y(), 5.0);
+  EXPECT_NEAR(in_front.truth().sensed_force_N.norm(), 5.0, 1e-12);
   EXPECT_EQ(behind.truth().sensed_force_N.norm(), 0.0);
 }
 

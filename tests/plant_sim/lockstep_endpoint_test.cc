@@ -122,7 +122,7 @@ TEST_F(Lockstep, TheWrenchStopsInItsWindowCountedFromEnabling) {
   EXPECT_EQ(recorder_.Count(PlantEvent::kFaultEnds), 1);
 }
 
-TEST_F(Lockstep, TheWrenchIsTheForceOnTheRobotInBaseAxes) {
+TEST_F(Lockstep, TheWrenchIsWhatTheSensorFeelsInItsAxes) {
   PlantConfig scenario = TwoJointScenario();
   scenario.sensors.force_noise_N = 0.0;
   body_.force_N = Eigen::Vector3d(1.0, -2.0, 8.25);

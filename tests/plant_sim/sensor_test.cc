@@ -177,9 +177,24 @@ TEST(WrenchSensor, ClampsToItsRangeAndSaysSo) {
   EXPECT_EQ(reading.force_N, Vector3d(100.0, -100.0, 7.0));
 }
 
+TEST(WrenchSensor, ItsMomentsHaveABiasAndARangeToo) {
+  SensorConfig config;
+  config.moment_noise_Nm = 0.0;
+  config.moment_range_Nm = 10.0;
+  config.moment_bias_Nm = {0.5, -1.0, 0.0};
+  WrenchSensor sensor(config, 1);
+  WrenchReading reading = sensor.Measure(Vector3d::Zero(), Vector3d(9.5, -9.0, 7.0));
+  EXPECT_FALSE(reading.saturated);
+  EXPECT_EQ(reading.moment_Nm, Vector3d(10.0, -10.0, 7.0));
+  reading = sensor.Measure(Vector3d::Zero(), Vector3d(0.0, -9.1, 7.0));
+  EXPECT_TRUE(reading.saturated);
+  EXPECT_EQ(reading.moment_Nm, Vector3d(0.5, -10.0, 7.0));
+}
+
 TEST(WrenchSensor, ResetRepeatsTheSameNoiseAndAnotherSeedDoesNot) {
   WrenchSensor sensor(SensorConfig{}, 5), other(SensorConfig{}, 6);
   std::vector<Vector3d> first;
+  first.reserve(50);
   for (int i = 0; i < 50; ++i) first.push_back(sensor.Measure(Vector3d::Zero(), Vector3d::Zero()).force_N);
   sensor.Reset();
   bool differs = false;

@@ -46,65 +46,69 @@ TEST(SourceSelector, DoesWhatTheScenarioSaysInEveryOtherMode) {
 
 TEST(NormalForce, IsContinuousAtLossAndReturnAlthoughTheObserverIsOffByThreeNewton) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Tare(Eigen::Vector3d(0.0, 0.0, 0.4), true);
+  for (int k = 0; k < 64; ++k) force.Tare({Eigen::Vector3d(0.0, 0.0, 0.4)}, true);
   const Eigen::Vector3d read(0.0, 0.0, 8.4), observed(0.0, 0.0, 11.0);
   double before = 0.0;
-  for (int k = 0; k < 1000; ++k) before = force.Step(ForceSource::kKnown, read, observed, true);
+  for (int k = 0; k < 1000; ++k) before = force.Step(ForceSource::kKnown, {read, kUp}, observed, true);
   EXPECT_NEAR(before, 8.0, 1e-12);
-  const double lost = force.Step(ForceSource::kObserver, read, observed + 0.2 * kUp, true);
+  const double lost = force.Step(ForceSource::kObserver, {read, kUp}, observed + 0.2 * kUp, true);
   EXPECT_NEAR(lost, before, 1e-9) << "what the observer sees differently is carried over";
   double held = lost;
-  for (int k = 0; k < 3000; ++k) held = force.Step(ForceSource::kObserver, read, observed + 0.2 * kUp, true);
+  for (int k = 0; k < 3000; ++k)
+    held = force.Step(ForceSource::kObserver, {read, kUp}, observed + 0.2 * kUp, true);
   EXPECT_NEAR(held, 8.2, 1e-3) << "and forgotten";
-  EXPECT_NEAR(force.Step(ForceSource::kKnown, read, observed, true), held, 1e-9);
+  EXPECT_NEAR(force.Step(ForceSource::kKnown, {read, kUp}, observed, true), held, 1e-9);
 }
 
 TEST(NormalForce, AConstantAndASaturatedReadingAreReadings) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Tare(Eigen::Vector3d::Zero(), true);
+  for (int k = 0; k < 64; ++k) force.Tare({Eigen::Vector3d::Zero()}, true);
   for (int k = 0; k < 500; ++k)
-    EXPECT_EQ(force.Step(ForceSource::kKnown, 200.0 * kUp, Eigen::Vector3d::Zero(), true), 200.0);
+    EXPECT_EQ(force.Step(ForceSource::kKnown, {200.0 * kUp, kUp}, Eigen::Vector3d::Zero(), true), 200.0);
 }
 
 TEST(NormalForce, TakesANewZeroFromFramesThatReturnToAFreeArm) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 64; ++k) force.Tare(1.0 * kUp, true);
+  for (int k = 0; k < 64; ++k) force.Tare({1.0 * kUp}, true);
   for (int k = 1; k < SourceSelector::kReturnCycles; ++k) {
-    EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12);
-    force.Retare(5.0 * kUp, k, true);
+    EXPECT_NEAR(force.Step(ForceSource::kKnown, {5.0 * kUp, kUp}, Eigen::Vector3d::Zero(), false), 4.0,
+                1e-12);
+    force.Retare({5.0 * kUp}, k, true);
   }
-  EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 0.0, 1e-12);
+  EXPECT_NEAR(force.Step(ForceSource::kKnown, {5.0 * kUp, kUp}, Eigen::Vector3d::Zero(), false), 0.0, 1e-12);
 }
 
 TEST(NormalForce, KeepsItsZeroWhenTheArmMeetsTheWallWhileFramesReturn) {
   for (const int contact_at : {2, 40, 70, 99}) {
     NormalForce force(kUp, kContact_N, kT);
-    for (int k = 0; k < 64; ++k) force.Tare(1.0 * kUp, true);
-    for (int k = 1; k < SourceSelector::kReturnCycles; ++k) force.Retare(5.0 * kUp, k, k < contact_at);
-    EXPECT_NEAR(force.Step(ForceSource::kKnown, 5.0 * kUp, Eigen::Vector3d::Zero(), false), 4.0, 1e-12)
+    for (int k = 0; k < 64; ++k) force.Tare({1.0 * kUp}, true);
+    for (int k = 1; k < SourceSelector::kReturnCycles; ++k) force.Retare({5.0 * kUp}, k, k < contact_at);
+    EXPECT_NEAR(force.Step(ForceSource::kKnown, {5.0 * kUp, kUp}, Eigen::Vector3d::Zero(), false), 4.0, 1e-12)
         << contact_at;
   }
 }
 
 TEST(NormalForce, TheObserversTareFollowsTheFreeArmButNotTheRiseOfAContact) {
   NormalForce force(kUp, kContact_N, kT);
-  for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false);
-  EXPECT_NEAR(force.Step(ForceSource::kObserver, kUp, -4.0 * kUp, false), 0.0, 1e-3);
+  for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, {kUp, kUp}, -4.0 * kUp, false);
+  EXPECT_NEAR(force.Step(ForceSource::kObserver, {kUp, kUp}, -4.0 * kUp, false), 0.0, 1e-3);
   double f = 0.0;
-  for (int k = 0; k < 100; ++k) f = force.Step(ForceSource::kObserver, kUp, (-4.0 + 0.04 * k) * kUp, false);
+  for (int k = 0; k < 100; ++k)
+    f = force.Step(ForceSource::kObserver, {kUp, kUp}, (-4.0 + 0.04 * k) * kUp, false);
   EXPECT_GT(f, 3.5);
 }
 
 TEST(NormalForce, AWallThatIsMetBeforeItsTimeIsNoNewZeroOfTheObserver) {
   for (const double x_dot : {-5e-3, 0.0}) {  // a jump while the tip does not approach is a change of weight
     NormalForce force(kUp, kContact_N, kT);
-    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, x_dot * kUp);
+    for (int k = 0; k < 1000; ++k)
+      force.Step(ForceSource::kUnknown, {kUp, kUp}, -4.0 * kUp, false, x_dot * kUp);
     for (int k = 0; k < 100; ++k)
-      force.Step(ForceSource::kUnknown, kUp, (-4.0 + 0.08 * k) * kUp, false, x_dot * kUp);
+      force.Step(ForceSource::kUnknown, {kUp, kUp}, (-4.0 + 0.08 * k) * kUp, false, x_dot * kUp);
     double f = 0.0;
-    for (int k = 0; k < 3000; ++k) f = force.Step(ForceSource::kUnknown, kUp, 4.0 * kUp, false);
+    for (int k = 0; k < 3000; ++k) f = force.Step(ForceSource::kUnknown, {kUp, kUp}, 4.0 * kUp, false);
     EXPECT_NEAR(f, x_dot < 0.0 ? 8.0 : 0.0, 1.0) << x_dot;
-    for (int k = 0; k < 1000; ++k) f = force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false);
+    for (int k = 0; k < 1000; ++k) f = force.Step(ForceSource::kUnknown, {kUp, kUp}, -4.0 * kUp, false);
     EXPECT_NEAR(f, 0.0, 1e-3) << "followed again when the wall is left";
   }
 }
@@ -113,10 +117,12 @@ TEST(NormalForce, HoweverSlowlyTheTipMovesTheForceOfAWallIsNoNewZero) {
   constexpr double kSoft_Npm = 800.0, kDepth_m = 5e-3;
   for (const double speed : {0.3e-3, 1e-3, 3e-3, 10e-3}) {
     NormalForce force(kUp, kContact_N, kT);
-    for (int k = 0; k < 1000; ++k) force.Step(ForceSource::kUnknown, kUp, -4.0 * kUp, false, -speed * kUp);
+    for (int k = 0; k < 1000; ++k)
+      force.Step(ForceSource::kUnknown, {kUp, kUp}, -4.0 * kUp, false, -speed * kUp);
     double f = 0.0;
-    for (double depth = 0.0; depth < kDepth_m; depth += kT * speed)
-      f = force.Step(ForceSource::kUnknown, kUp, (-4.0 + kSoft_Npm * depth) * kUp, false, -speed * kUp);
+    for (int k = 0; k * kT * speed < kDepth_m; ++k)
+      f = force.Step(ForceSource::kUnknown, {kUp, kUp}, (-4.0 + kSoft_Npm * k * kT * speed) * kUp, false,
+                     -speed * kUp);
     EXPECT_NEAR(f, kSoft_Npm * kDepth_m, 0.25 * kSoft_Npm * kDepth_m + 0.5) << speed;
     EXPECT_TRUE(force.met_wall()) << speed;
   }
@@ -127,8 +133,9 @@ TEST(NormalForce, TheErrorOfTheWeightIsFollowedWhileTheTipApproaches) {
   for (const double speed : {1e-3, 10e-3, 50e-3}) {
     NormalForce force(kUp, kContact_N, kT);
     double f = 0.0;
-    for (double way = 0.0; way < 0.1; way += kT * speed)
-      f = force.Step(ForceSource::kUnknown, kUp, (-4.0 + kError_Npm * way) * kUp, false, -speed * kUp);
+    for (int k = 0; k * kT * speed < 0.1; ++k)
+      f = force.Step(ForceSource::kUnknown, {kUp, kUp}, (-4.0 + kError_Npm * k * kT * speed) * kUp, false,
+                     -speed * kUp);
     EXPECT_FALSE(force.met_wall()) << speed;
     EXPECT_LT(f, kContact_N) << speed;
   }

@@ -22,8 +22,8 @@ PROGRAM = r"""
 #include "reed/firmware/record/encode.h"
 #include "reed/lcmtypes/fields/field.h"
 struct Vector { double size_ = 0; int size() const { return 2; } double operator[](int i) const { return 0.5 + i; } };
-struct Part { Vector theta_d, theta_d_dot, e, v, v_dot, D, torque; double f_d = 0, e_f = 0, z = 0, e_f_integral = 0; };
-struct Decision { Part plan, desired, aux, normal, force; Vector s, tau_law, tip_plan; int source = 0; double f = 0; };
+struct Part { Vector theta_d, theta_d_dot, e, v, v_dot, D, torque, F, n; double f_d = 0, e_f = 0, z = 0, e_f_integral = 0; };
+struct Decision { Part plan, desired, aux, normal, force, felt; Vector s, tau_law, tip_plan; int source = 0; double f = 0; };
 struct Strategy {
   Vector normal() const { return {}; }
   Vector observed() const { return {}; }

@@ -197,6 +197,7 @@ def end_of_chain(frames):
         R = R @ np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                           [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                           [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    assert (frames.transforms[5].parent_frame_id, frames.transforms[5].child_frame_id) == (parent, "force_sensor")
     return tuple(p)
 
 

@@ -1,7 +1,8 @@
 // The normal force: from the wrist sensor or from the momentum observer, without a step at a change of source.
 // RT: safe.
 //
-//   sensor    f = nᵀ(F − zero). The zero is the mean of 64 readings at rest. It is taken again when frames return
+//   sensor    f = nᵀ(F − zero), all in the sensor's axes and without the tool's weight, so that a zero taken in one pose
+//             holds in every other. The zero is the mean of 64 readings at rest. It is taken again when frames return
 //             and the arm touches nothing until the sensor is used again.
 //   observer  f̂ = nᵀF̂ (50) − tare. The tare follows nᵀF̂ − f while the sensor is used, and nᵀF̂ in free motion:
 //             slowly while the wall is sought. While the tip approaches it rises no faster than the error of the
@@ -13,7 +14,8 @@
 #include <algorithm>
 
 #include "reed/core/contact/force_source.h"
-#include "reed/core/contact/force_tare.h"
+#include "reed/core/contact/mounted_sensor.h"
+#include "reed/core/contact/wrench_tare.h"
 #include "reed/math/exponential.h"
 
 namespace reed::strategy {
@@ -30,42 +32,43 @@ class NormalForce {
         approach_share_(-math::ExpM1(-T / kApproach_s)),
         forget_(math::Exp(-T / kForget_s)) {}
 
-  /// At rest and free. force: as read.
-  void Tare(const Eigen::Vector3d& force, bool fresh) noexcept {
-    if (fresh) zero_.Take(force);
+  /// At rest and free. Here and below `read` is without the tool's weight, in the sensor's axes. valid: of now, and no
+  /// axis at the end of its range.
+  void Tare(const model::Wrench& read, bool valid) noexcept {
+    if (valid) zero_.Take(read);
     carried_ = 0.0;
     tare_ = 0.0;
     starting_s_ = kStart_s;
   }
-  /// The sensor's force on the arm, all axes, tared; as read before the tare is complete. N.
-  Eigen::Vector3d Felt(const Eigen::Vector3d& read) const noexcept { return zero_.Felt(read); }
+  /// The environment on the sensor, all axes, tared; as read before the tare is complete.
+  model::Wrench Felt(const model::Wrench& read) const noexcept { return zero_.Felt(read); }
   /// By how much the zero differs from what a sensor that touches nothing reads, N.
-  double ZeroOffset() const noexcept { return zero_.Norm(); }
+  double ZeroOffset() const noexcept { return zero_.Force(); }
   bool tared() const noexcept { return zero_.complete(); }
 
   /// The frames are back: a new zero from the first of them, if the arm was free until the last one that the
   /// source waits for. That wait is longer than the rise of a contact. An arm that met the wall meanwhile keeps
   /// its old zero, or the wall's force would become the zero.
-  void Retare(const Eigen::Vector3d& force, int fresh_in_row, bool free) noexcept {
+  void Retare(const model::Wrench& read, int fresh_in_row, bool free) noexcept {
     if (fresh_in_row == 1) {
       returned_ = {};
       stayed_free_ = true;
     }
     stayed_free_ = stayed_free_ && free;
-    returned_.Take(force);
+    returned_.Take(read);
     if (stayed_free_ && fresh_in_row == SourceSelector::kReturnCycles - 1) zero_ = returned_;
   }
 
   /// The observed force rose as it does when the tip meets a wall: a contact before force.start_s.
   bool met_wall() const noexcept { return met_; }
 
-  /// read: sensor force as read (held while frames are missing). observed: F̂ (50). N. tip: its velocity, m/s.
-  double Step(ForceSource source, const Eigen::Vector3d& read, const Eigen::Vector3d& observed,
-              bool in_contact, const Eigen::Vector3d& tip = Eigen::Vector3d::Zero()) noexcept {
+  /// read: of the sensor (held while frames are missing). observed: F̂ (50), world axes. N. tip: its velocity, m/s.
+  double Step(ForceSource source, const SensorReading& read, const Eigen::Vector3d& observed, bool in_contact,
+              const Eigen::Vector3d& tip = Eigen::Vector3d::Zero()) noexcept {
     approach_ += approach_share_ * (-normal_.dot(tip) - approach_);
     const bool approaches = approach_ > kApproaching_mps;
     const bool sensor = source == ForceSource::kKnown;
-    const double by_sensor = normal_.dot(zero_.Apply(read));
+    const double by_sensor = read.normal.dot(zero_.Apply(read.force));
     const double by_observer = normal_.dot(observed);
     if (sensor) tare_ += tare_share_ * (by_observer - by_sensor - tare_);
     const bool rises = !sensor && by_observer - tare_ > contact_N_;
@@ -103,7 +106,7 @@ class NormalForce {
   double contact_N_;
   double T_;
   double tare_share_, seek_share_, approach_share_, forget_;
-  ForceTare zero_, returned_;
+  WrenchTare zero_, returned_;
   bool stayed_free_ = false;
   double starting_s_ = kStart_s;
   double approach_ = 0.0;  // normal speed of the tip into the wall, filtered, m/s

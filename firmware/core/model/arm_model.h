@@ -46,6 +46,11 @@ struct ArmModel {
   Eigen::Vector3d tool_offset;             // last link frame
   Eigen::Matrix3d tool_rotation;           // columns: axes of the tool's frame, in the last link
 
+  Eigen::Matrix3d sensor_rotation;  // columns: axes of the force sensor, in the last link
+  Eigen::Vector3d sensor_to_tool;   // from its origin to the tool point, its axes
+  double sensor_tool_mass;          // behind the sensor
+  Eigen::Vector3d sensor_tool_com;  // of that mass, from its origin, its axes
+
   // Bodies: shapes of link b are shape[first_shape[b]] ... shape[first_shape[b + 1] - 1].
   FixedArray<UnitShape, N*(P + 1)> shape;
   FixedArray<int, N + 1> first_shape;

@@ -46,6 +46,8 @@ class Supervisor {
   Mode mode() const noexcept { return mode_; }
   bool start_wanted() const noexcept { return start_wanted_; }
   bool enabling() const noexcept { return enabling_; }
+  /// Everything is ready but the force sensor's zero may be missing.
+  bool awaits_tare() const noexcept { return mode_ == Mode::kReady && start_wanted_ && !enabling_; }
   int cycles_enabling() const noexcept { return cycles_enabling_; }
   std::int64_t cycles_in_mode() const noexcept { return cycles_in_mode_; }
 

@@ -17,7 +17,8 @@ class Watch {
  public:
   explicit Watch(double T) noexcept : T_(T) {}
 
-  /// Trips are checked only while torque may flow: an arm at rest behind closed brakes is safe. source: of the last
+  /// Trips are checked only while torque may flow: an arm at rest behind closed brakes is safe. One that waits for its
+  /// force sensor's zero trips where that sensor is at the end of its range: it would wait for ever. source: of the last
   /// cycle. contact_force: the force on the wall as far as it is known, N.
   LimitCheck CheckState(const Measurement<N>& measured, const CycleState& state,
                         const mode::Supervisor& supervisor, const Limits<N>& limits,
@@ -35,7 +36,10 @@ class Watch {
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
     if (cycles_incomplete_ * T_ > kPatience_s) return Stale(measured);
-    if (supervisor.Request() != DriveRequest::kEnable) return {};
+    const bool wrench_fresh = !limits.TooOld(measured.wrench_age);
+    const bool saturated = wrench_fresh && measured.wrench_saturated;
+    if (supervisor.Request() != DriveRequest::kEnable)
+      return saturated && supervisor.awaits_tare() ? WrenchRange(measured) : LimitCheck{};
     if (active && state.missed_in_row_exceeded)
       return {Reason::kMissedCycles, -1, static_cast<double>(state.missed_in_row), 0};
     if (active && state.phase_budget_exceeded)
@@ -45,15 +49,17 @@ class Watch {
       if (!DriveStateAllowed(drive, supervisor))
         return {Reason::kDriveFault, i, static_cast<double>(drive), 0};
     }
-    const bool wrench_fresh = !limits.TooOld(measured.wrench_age);
     // A law that tracks the measured force may not press without it. A law that needs none has another source.
     if (active && source == strategy::ForceSource::kKnown && !wrench_fresh)
       return {Reason::kStaleWrench, -1, static_cast<double>(measured.wrench_age), 0};
     const LimitCheck check = limits.CheckState(measured.theta, measured.theta_dot, contact_force,
                                                measured.OldestAge(), measured.OldestJoint());
-    if (check.trip == Reason::kNone && wrench_fresh && measured.wrench_saturated)
-      return {Reason::kWrenchRange, -1, measured.force.cwiseAbs().maxCoeff(), 0};
-    return check;
+    return check.trip == Reason::kNone && saturated ? WrenchRange(measured) : check;
+  }
+
+  /// The readings are lower bounds: no force, and no zero for a sensor that waits for one.
+  static LimitCheck WrenchRange(const Measurement<N>& measured) noexcept {
+    return {Reason::kWrenchRange, -1, measured.force.cwiseAbs().maxCoeff(), 0};
   }
 
   /// Grid points that the controller missed in a row.

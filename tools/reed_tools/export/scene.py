@@ -24,6 +24,7 @@ from reed_tools.record.telemetry_log import Recording
 from reed_tools.robots import arm_frames
 from reed_tools.robots.arm_frames import rows_at
 from reed_tools.robots.arm_lines import FORCE_mPN, LEAST_FORCE_N, aim, joint_transforms, wall_plate
+from reed_tools.robots.joint_frames import quaternion_of, transform_of
 
 BASE = "base"
 ORANGE, GREY, BLUE, RED = (0.84, 0.37, 0.0, 1.0), (0.5, 0.5, 0.5, 0.5), (0.34, 0.71, 0.91, 0.4), (0.8, 0.1, 0.1, 1.0)
@@ -44,7 +45,7 @@ def stamp(time_ns: int) -> Timestamp:
 
 
 def frames(recording: Recording, effective: dict) -> Made:
-    """Link frames by the measured motor angles, and the true tool point, at the times of REED_SHAPE."""
+    """Link frames and the force sensor's axes by the measured motor angles, and the true tool point, at the times of REED_SHAPE."""
     shape, measured, plant = (recording.tables[name] for name in ("REED_SHAPE", "REED_MEASURED", "REED_PLANT"))
     if not (recording.has("REED_MEASURED") and recording.has("REED_PLANT") and recording.has("REED_SHAPE")):
         return Made(FrameTransforms, np.array([], dtype=np.int64), lambda n: None)
@@ -56,6 +57,9 @@ def frames(recording: Recording, effective: dict) -> Made:
         for frame, p, q in joint_transforms(effective["arm"], measured["position"][at_measured[n]]):
             made.transforms.append(transform(time, parent, frame, p, q))
             parent = frame
+        if "force_sensor" in effective["arm"]:  # a run of before knew none
+            R, p = transform_of(effective["arm"]["force_sensor"])
+            made.transforms.append(transform(time, parent, "force_sensor", p, quaternion_of(R)))
         made.transforms.append(transform(time, BASE, "true_tip", plant["tip"][at_plant[n]], (1.0, 0.0, 0.0, 0.0)))
         return made
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reed_tools.robots.chain import chain_of
+from reed_tools.robots.chain import chain_of, transform_of
 from reed_tools.robots.joint_frames import mounts, quaternion_of
 from reed_tools.robots.rigid_arm import poses
 
@@ -18,7 +18,7 @@ def centre_line(arm: dict, q: np.ndarray) -> np.ndarray:
     """Rigid arms for many poses, [n, 2 dof + 2, 3]: from each link to the next joint, then along its axis, at last the tool point."""
     at = poses(arm, q)
     R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
-    points = [p]
+    points = [p + transform_of(arm.get("base", {}))[1]]
     for joint, mount in enumerate(mounts(arm)):
         points += [p + R @ mount.p, at.p[joint]]
         R, p = at.R[joint], at.p[joint]
