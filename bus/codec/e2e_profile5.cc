@@ -35,8 +35,8 @@ std::uint16_t Crc16(std::span<const std::uint8_t> bytes, std::uint16_t crc) noex
   return crc;
 }
 
-void E2eSender::Protect(std::span<std::uint8_t> frame, std::uint16_t data_id) noexcept {
-  frame[2] = counter_++;
+void Protect(std::span<std::uint8_t> frame, std::uint16_t data_id, std::uint8_t counter) noexcept {
+  frame[2] = counter;
   const std::uint16_t crc = FrameCrc(frame, data_id);
   frame[0] = static_cast<std::uint8_t>(crc & 0xFFU);
   frame[1] = static_cast<std::uint8_t>(crc >> 8);

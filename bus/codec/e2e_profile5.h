@@ -25,11 +25,15 @@ inline constexpr std::size_t kE2eHeaderSize = 3;
 /// CRC-16 CCITT-FALSE (polynomial 0x1021, first remainder `crc`, no reflection, no final xor).
 std::uint16_t Crc16(std::span<const std::uint8_t> bytes, std::uint16_t crc = 0xFFFF) noexcept;
 
+/// Writes CRC and `counter` into bytes 0-2 of `frame` (at least kE2eHeaderSize bytes).
+void Protect(std::span<std::uint8_t> frame, std::uint16_t data_id, std::uint8_t counter) noexcept;
+
 class E2eSender {
  public:
-  /// Writes CRC and counter into bytes 0-2 of `frame` (at least kE2eHeaderSize bytes) and advances the
-  /// counter.
-  void Protect(std::span<std::uint8_t> frame, std::uint16_t data_id) noexcept;
+  /// Protects `frame` with the next counter.
+  void Protect(std::span<std::uint8_t> frame, std::uint16_t data_id) noexcept {
+    bus::Protect(frame, data_id, counter_++);
+  }
 
  private:
   std::uint8_t counter_ = 0;

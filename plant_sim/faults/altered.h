@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "reed/bus/codec/messages.h"
-#include "reed/plant/faults/frame_batch.h"
+#include "reed/bus/codec/reprotect.h"
 
 namespace reed::plant {
 
@@ -44,7 +44,7 @@ inline bus::Frame Altered(const bus::Frame& frame, const Change& change) noexcep
     case bus::MessageKind::kUnknown:
       return frame;
   }
-  Reprotect(out, CounterOf(frame));
+  bus::Reprotect(out, bus::CounterOf(frame));
   return out;
 }
 

@@ -28,6 +28,8 @@ struct Moment {
 
 /// What drives and brakes do to the arm until the next look.
 struct Actuation {
+  int dof() const noexcept { return static_cast<int>(torque_Nm.size()); }
+
   Eigen::VectorXd& torque_Nm;
   const Eigen::VectorXd& limit_Nm;
   const Eigen::VectorXd& motor_speed_radps;
@@ -35,8 +37,19 @@ struct Actuation {
   bool braked = false;                               // the drives' own wish
 };
 
+/// What a kind is made from.
+struct Making {
+  const FaultConfig& config;
+  Target target;
+  double size;  // the configuration's, or the usual one
+};
+
 class Fault {
  public:
+  explicit Fault(const Making& making) noexcept
+      : target_(making.target), size_(making.size), announced_(making.config.announced) {}
+  Fault(const Fault&) = delete;
+  Fault& operator=(const Fault&) = delete;
   virtual ~Fault() = default;
   virtual void OnReceived(FrameBatch&, const Moment&) noexcept {}
   virtual void OnActuation(Actuation&, const Moment&) noexcept {}
@@ -46,13 +59,17 @@ class Fault {
   virtual void End() noexcept {}
   /// Its frames are still to be passed to it then, because it holds some back.
   virtual bool pending() const noexcept { return false; }
-};
 
-/// What a kind is made from.
-struct Making {
-  const FaultConfig& config;
-  Target target;
-  double size;  // the configuration's, or the usual one
+ protected:
+  const Target& target() const noexcept { return target_; }
+  double size() const noexcept { return size_; }
+  bool announced() const noexcept { return announced_; }
+  bool Hits(const bus::Frame& frame) const noexcept { return target_.Carries(frame.id); }
+
+ private:
+  Target target_;
+  double size_;
+  bool announced_;
 };
 
 /// One row of the table of kinds (kinds.cc).
@@ -65,6 +82,7 @@ struct Kind {
   bool fixes;           // its target's value is its own, so no other fault may sit there at the same time
   const char* text;     // for people
   std::unique_ptr<Fault> (*make)(const Making&);
+  double neutral = 0.0;  // a size that changes nothing; 0: none is
 };
 
 template <typename T>

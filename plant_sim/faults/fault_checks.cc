@@ -64,7 +64,7 @@ class Check {
     const bool wrench = target_.seat == Seat::kForce || target_.seat == Seat::kWrenchFrame;
     if (wrench && !plant_.sensors.wrench)
       Refuse("target", "'" + f_.target + "': no force sensor is fitted (sensors.wrench)");
-    if (f_.kind == "subset" && f_.size > plant_.arm.dof())
+    if (std::string_view(kind_->unit) == "joint" && f_.size > plant_.arm.dof())
       Refuse("size", "joint " + ToText(f_.size) + ": the arm has " + std::to_string(plant_.arm.dof()));
   }
 
@@ -76,8 +76,7 @@ class Check {
     if (f_.size != 0.0 && (f_.size < kind_->lo || f_.size > kind_->hi))
       Refuse("size", ToText(f_.size) + " is out of range; allowed: " + ToText(kind_->lo) + " ... " +
                          ToText(kind_->hi) + " " + kind_->unit);
-    if ((f_.kind == "gain" || f_.kind == "swapped_unit") && f_.size == 1.0)
-      Refuse("size", "1 changes nothing");
+    if (f_.size != 0.0 && f_.size == kind_->neutral) Refuse("size", ToText(f_.size) + " changes nothing");
   }
 
   void Start() {

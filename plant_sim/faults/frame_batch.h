@@ -6,9 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "reed/bus/codec/e2e_profile5.h"
 #include "reed/bus/frame/frame.h"
-#include "reed_layout.h"
 
 namespace reed::plant {
 
@@ -68,20 +66,5 @@ class HeldFrames {
   std::array<Held, 512> held_;
   std::size_t size_ = 0;
 };
-
-/// Makes a changed frame whole again for every check of its protection; `counter`: E2E counter that it gets.
-inline void Reprotect(bus::Frame& frame, std::uint8_t counter) noexcept {
-  for (const bus::FrameLayout& layout : bus::layout::kFrames) {
-    if (layout.id != frame.id) continue;
-    frame.data[2] = counter;
-    const std::array<std::uint8_t, 2> data_id{static_cast<std::uint8_t>(layout.data_id & 0xFFU),
-                                              static_cast<std::uint8_t>(layout.data_id >> 8U)};
-    const std::uint16_t crc =
-        bus::Crc16(data_id, bus::Crc16(std::span(frame.data).first(frame.size).subspan(2)));
-    frame.data[0] = static_cast<std::uint8_t>(crc & 0xFFU);
-    frame.data[1] = static_cast<std::uint8_t>(crc >> 8U);
-  }
-}
-inline std::uint8_t CounterOf(const bus::Frame& frame) noexcept { return frame.data[2]; }
 
 }  // namespace reed::plant

@@ -9,7 +9,7 @@ namespace reed::plant {
 
 class HeldFault : public Fault {
  public:
-  explicit HeldFault(const Making& making) : target_(making.target), size_(making.size) {}
+  using Fault::Fault;
 
   /// A late command comes after the next SYNC. At the end all come in their order, before what is new.
   void OnReceived(FrameBatch& frames, const Moment& at) noexcept final {
@@ -27,8 +27,7 @@ class HeldFault : public Fault {
 
   /// The cycle in which a frame that the fault hits goes on; the present one: it is not held.
   virtual std::int64_t Until(const Moment& at) noexcept = 0;
-  std::int64_t cycles() const noexcept { return static_cast<std::int64_t>(size_); }
-  double size() const noexcept { return size_; }
+  std::int64_t cycles() const noexcept { return static_cast<std::int64_t>(size()); }
 
  private:
   void OldFirst(FrameBatch& frames, const Moment& at, HeldFrames& line) noexcept {
@@ -42,7 +41,7 @@ class HeldFault : public Fault {
   void Hold(FrameBatch& frames, const Moment& at, HeldFrames& line) noexcept {
     batch_.Clear();
     for (const bus::Frame& frame : frames) {
-      const std::int64_t until = !over_ && target_.Carries(frame.id) ? Until(at) : at.cycle;
+      const std::int64_t until = !over_ && Hits(frame) ? Until(at) : at.cycle;
       if (until > at.cycle)
         line.Hold(frame, until);
       else
@@ -50,8 +49,6 @@ class HeldFault : public Fault {
     }
   }
 
-  Target target_;
-  double size_;
   bool over_ = false;
   HeldFrames in_, out_;
   FrameBatch batch_, released_;

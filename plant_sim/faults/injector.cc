@@ -22,8 +22,6 @@ std::uint32_t StreamOf(const std::string& id) {
 
 struct Injector::Entry {
   const FaultConfig* config;
-  Making making;
-  const Kind* kind;
   Trigger trigger;
   RandomStream random;
   std::unique_ptr<Fault> fault;
@@ -132,7 +130,7 @@ void Injector::Reset() {
   for (const FaultConfig& config : configs_) {
     const Kind* kind = FindKind(config.kind);
     const Making making{config, *ParseTarget(config.target), config.size != 0.0 ? config.size : kind->usual};
-    entries_.push_back({&config, making, kind, Trigger(config, configs_, rate_hz_),
+    entries_.push_back({&config, Trigger(config, configs_, rate_hz_),
                         RandomStream(seed_, StreamOf(config.id)), kind->make(making)});
     if (making.target.seat == Seat::kEncoder)
       encoders_ |= making.target.joint < 0 || kind->seats == (Seat::kEncoder | Seat::kForce)

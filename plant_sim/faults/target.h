@@ -44,6 +44,12 @@ struct Target {
   int axis = -1;   // of the wrench; -1: all
 
   bool Has(int of_joint) const noexcept { return joint < 0 || joint == of_joint; }
+  /// Calls f(joint) for each that it is about, of an arm with `dof`.
+  template <typename Call>
+  void ForEachJoint(int dof, Call f) const noexcept {
+    for (int i = 0; i < dof; ++i)
+      if (Has(i)) f(i);
+  }
   /// A frame's identifier is the target's.
   bool Carries(std::uint32_t id) const noexcept;
 };

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "reed/bus/codec/messages.h"
-#include "reed/tests/support/reprotect.h"
+#include "reed/bus/codec/reprotect.h"
 
 namespace reed::bus {
 namespace {
-
-using test::Reprotect;
 
 std::uint64_t Count(const Decoder& decoder, Reject reject) {
   return decoder.counters().rejected[static_cast<std::size_t>(reject)];

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "reed/bus/codec/messages.h"
-#include "reed/tests/support/reprotect.h"
 
 namespace reed::test {
 

@@ -1,27 +1,13 @@
 // The brake stays closed, whatever its drive wants. RT: safe.
-#include "reed/plant/faults/fault.h"
 #include "reed/plant/faults/kinds.h"
+#include "reed/plant/faults/stuck_brake.h"
 
 namespace reed::plant {
 namespace {
 
-class BrakeStuckClosedFault final : public Fault {
+class BrakeStuckClosedFault final : public StuckBrake {
  public:
-  explicit BrakeStuckClosedFault(const Making& making)
-      : target_(making.target), announced_(making.config.announced) {}
-
-  void OnActuation(Actuation& act, const Moment&) noexcept override {
-    for (int joint = 0; joint < static_cast<int>(act.torque_Nm.size()); ++joint)
-      if (target_.Has(joint)) act.brakes_closed |= 1U << static_cast<unsigned>(joint);
-  }
-  void OnMeasurement(Measurement& m, const Moment&) noexcept override {
-    for (int joint = 0; announced_ && joint < m.dof; ++joint)
-      if (target_.Has(joint)) m.joints[static_cast<std::size_t>(joint)].state = bus::DriveState::kFault;
-  }
-
- private:
-  Target target_;
-  bool announced_;
+  explicit BrakeStuckClosedFault(const Making& making) : StuckBrake(making, &Actuation::brakes_closed) {}
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // A CAN controller is bus-off: its node neither sends nor receives. RT: safe.
 #include "reed/plant/faults/fault.h"
-#include "reed/plant/faults/held_torque.h"
+#include "reed/plant/faults/held_values.h"
 #include "reed/plant/faults/kinds.h"
 
 namespace reed::plant {
@@ -8,29 +8,26 @@ namespace {
 
 class BusOffFault final : public Fault {
  public:
-  explicit BusOffFault(const Making& making) : target_(making.target), patience_(making.size) {}
+  using Fault::Fault;
 
   void OnReceived(FrameBatch& frames, const Moment&) noexcept override { Remove(frames); }
   void OnSent(FrameBatch& frames, const Moment&) noexcept override { Remove(frames); }
   void OnActuation(Actuation& act, const Moment& at) noexcept override {
-    if (target_.seat != Seat::kNode || act.braked) return;
-    for (int joint = 0; joint < static_cast<int>(act.torque_Nm.size()); ++joint) {
-      if (!target_.Has(joint)) continue;
-      const double held = held_.Of(joint, act.torque_Nm[joint], at.since == 0);
-      const bool brakes = at.since >= patience_;
+    if (target().seat != Seat::kNode || act.braked) return;
+    target().ForEachJoint(act.dof(), [&](int joint) {
+      const double held = held_.Of(static_cast<std::size_t>(joint), act.torque_Nm[joint], at.since == 0);
+      const bool brakes = at.since >= size();
       act.torque_Nm[joint] = brakes ? 0.0 : held;
       if (brakes) act.brakes_closed |= 1U << static_cast<unsigned>(joint);
-    }
+    });
   }
 
  private:
   void Remove(FrameBatch& frames) noexcept {
-    frames.RemoveIf([this](const bus::Frame& frame) { return target_.Carries(frame.id); });
+    frames.RemoveIf([this](const bus::Frame& frame) { return Hits(frame); });
   }
 
-  Target target_;
-  double patience_;
-  HeldTorque held_;
+  HeldValues held_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ class GainFault final : public SignalFault {
 
 }  // namespace
 
-const Kind kGain{"gain", kSignals, "1", 1.5, -100, 100, false, "the reading is multiplied", &Make<GainFault>};
+const Kind kGain{"gain",           kSignals, "1", 1.5, -100, 100, false, "the reading is multiplied",
+                 &Make<GainFault>, 1.0};
 
 }  // namespace reed::plant

@@ -1,4 +1,5 @@
 // The reading is late. RT: safe.
+#include "reed/plant/faults/delay_line.h"
 #include "reed/plant/faults/kinds.h"
 #include "reed/plant/faults/signal_fault.h"
 
@@ -8,15 +9,9 @@ namespace {
 class LagFault final : public SignalFault {
   using SignalFault::SignalFault;
   double Changed(std::size_t channel, double value, const Moment& at) noexcept override {
-    std::array<double, kLongest>& line = line_[channel];
-    if (at.since == 0) line.fill(value);
-    const auto now = static_cast<std::size_t>(at.since);
-    line[now % kLongest] = value;
-    const auto late = static_cast<std::size_t>(size());
-    return now >= late ? line[(now - late) % kLongest] : line[(now + 1) % kLongest];
+    return line_.Of(channel, value, at.since, size());
   }
-  static constexpr std::size_t kLongest = 100;
-  std::array<std::array<double, kLongest>, kChannels> line_{};
+  DelayLine<100> line_;
 };
 
 }  // namespace

@@ -9,13 +9,13 @@ namespace {
 
 class SecondControllerFault final : public Fault {
  public:
-  explicit SecondControllerFault(const Making& making) : torque_Nm_(making.size) {}
+  using Fault::Fault;
 
   void OnReceived(FrameBatch& frames, const Moment&) noexcept override {
     batch_.Clear();
     for (const bus::Frame& frame : frames) {
       batch_.Add(frame);
-      if (frame.id == bus::layout::kCommand.id) batch_.Add(Altered(frame, {.value = torque_Nm_}));
+      if (frame.id == bus::layout::kCommand.id) batch_.Add(Altered(frame, {.value = size()}));
     }
     frames = batch_;
   }
@@ -24,7 +24,6 @@ class SecondControllerFault final : public Fault {
   }
 
  private:
-  double torque_Nm_;
   bus::FrameEncoder writer_;
   FrameBatch batch_;
 };

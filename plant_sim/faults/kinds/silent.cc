@@ -7,7 +7,7 @@ namespace {
 
 class SilentFault final : public Fault {
  public:
-  explicit SilentFault(const Making&) {}
+  using Fault::Fault;
   void OnMeasurement(Measurement& m, const Moment&) noexcept override { m.wrench_lost = true; }
 };
 

@@ -1,4 +1,5 @@
 // The reading stays what it is. RT: safe.
+#include "reed/plant/faults/held_values.h"
 #include "reed/plant/faults/kinds.h"
 #include "reed/plant/faults/signal_fault.h"
 
@@ -8,10 +9,9 @@ namespace {
 class StuckFault final : public SignalFault {
   using SignalFault::SignalFault;
   double Changed(std::size_t channel, double value, const Moment& at) noexcept override {
-    if (at.since == 0) held_[channel] = value;
-    return held_[channel];
+    return held_.Of(channel, value, at.since == 0);
   }
-  std::array<double, kChannels> held_{};
+  HeldValues held_;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The drive's torque stays what it is. RT: safe.
 #include "reed/plant/faults/drive_fault.h"
-#include "reed/plant/faults/held_torque.h"
+#include "reed/plant/faults/held_values.h"
 #include "reed/plant/faults/kinds.h"
 
 namespace reed::plant {
@@ -9,9 +9,9 @@ namespace {
 class StuckTorqueFault final : public DriveFault {
   using DriveFault::DriveFault;
   double Delivered(int joint, double asked_Nm, const Actuation&, const Moment& at) noexcept override {
-    return held_.Of(joint, asked_Nm, at.since == 0);
+    return held_.Of(static_cast<std::size_t>(joint), asked_Nm, at.since == 0);
   }
-  HeldTorque held_;
+  HeldValues held_;
 };
 
 }  // namespace

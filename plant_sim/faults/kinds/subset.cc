@@ -7,10 +7,10 @@ namespace {
 
 class SubsetFault final : public Fault {
  public:
-  explicit SubsetFault(const Making& making) : joint_(static_cast<int>(making.size) - 1) {}
+  explicit SubsetFault(const Making& making) : Fault(making), joint_(static_cast<int>(making.size) - 1) {}
 
   void OnActuation(Actuation& act, const Moment& at) noexcept override {
-    if (joint_ >= static_cast<int>(act.torque_Nm.size()) || act.braked) return;
+    if (joint_ >= act.dof() || act.braked) return;
     if (at.since == 0) held_Nm_ = act.torque_Nm[joint_];
     act.torque_Nm[joint_] = held_Nm_;
     acted_ = true;

@@ -9,23 +9,20 @@ namespace {
 
 class SwappedChannelFault final : public Fault {
  public:
-  explicit SwappedChannelFault(const Making& making) : target_(making.target) {}
+  using Fault::Fault;
 
   void OnMeasurement(Measurement& m, const Moment&) noexcept override {
-    if (target_.seat == Seat::kForce) {
-      const int axis = target_.axis < 0 ? 2 : target_.axis;
+    if (target().seat == Seat::kForce) {
+      const int axis = target().axis < 0 ? 2 : target().axis;
       std::swap(m.wrench.force_N[axis], m.wrench.force_N[(axis + 1) % 3]);
       return;
     }
-    const int joint = target_.joint < 0 ? 0 : target_.joint;
+    const int joint = target().joint < 0 ? 0 : target().joint;
     bus::JointStateMessage& one = m.joints[static_cast<std::size_t>(joint)];
     bus::JointStateMessage& other = m.joints[static_cast<std::size_t>((joint + 1) % m.dof)];
     std::swap(one.position_rad, other.position_rad);
     std::swap(one.velocity_radps, other.velocity_radps);
   }
-
- private:
-  Target target_;
 };
 
 }  // namespace

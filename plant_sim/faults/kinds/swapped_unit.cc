@@ -20,6 +20,7 @@ const Kind kSwappedUnit{"swapped_unit",
                         10000.0,
                         false,
                         "the reading is in another unit, as degrees for radians",
-                        &Make<SwappedUnitFault>};
+                        &Make<SwappedUnitFault>,
+                        1.0};
 
 }  // namespace reed::plant

@@ -1,4 +1,5 @@
 // The counters of frames jump. RT: safe.
+#include "reed/bus/codec/reprotect.h"
 #include "reed/plant/faults/frame_fault.h"
 #include "reed/plant/faults/kinds.h"
 
@@ -10,8 +11,8 @@ class WrongSequenceFault final : public FrameFault {
   void Pass(FrameBatch& frames, const Moment& at, bool) noexcept override {
     for (bus::Frame& frame : frames)
       if (Hits(frame))
-        Reprotect(frame,
-                  static_cast<std::uint8_t>(CounterOf(frame) + (at.since + 1) * static_cast<int>(size())));
+        bus::Reprotect(frame, static_cast<std::uint8_t>(bus::CounterOf(frame) +
+                                                        (at.since + 1) * static_cast<int>(size())));
   }
 };
 
