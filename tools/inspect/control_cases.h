@@ -60,7 +60,7 @@ void InspectControl(const Arm<N>& arm, const NamedValues& in, NamedValues& out) 
   const control::NormalDirection<N>& normal = decision.normal;
   out.SetVector("D_oblique", normal.D);
   if (in.HasAll("F_d_normal", "p_hat")) {
-    // The case presses without the force loop: the desired force of (32) comes to the torque, and v stays.
+    // The case presses without the force loop: the desired force of (31) comes to the torque, and v stays.
     const model::Vec<N> JtF_d = normal.J_n.transpose() * in.Scalar("F_d_normal");
     out.SetVector<N>("U_known", decision.tau_law - JtF_d);
   }

@@ -46,7 +46,27 @@ struct LawTraits {
   GainSet gains = GainSet::kScenario;
 };
 
-/// (36), with sat for sgn.
+template <int N, int P>
+model::Vec<P> YtsOf(const LawInput<N, P>& in) noexcept {
+  return in.regressor.Y.transpose() * in.s;
+}
+
+/// (31) with p_hat.
+template <int N, int P>
+model::Vec<N> KnownForceOf(const LawInput<N, P>& in, const model::Vec<P>& p_hat) noexcept {
+  return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat), in.JtF_d,
+                                      in.gains.K_d, in.s);
+}
+
+/// (36) with p_hat.
+template <int N, int P>
+model::Vec<N> UnknownForceOf(const LawInput<N, P>& in, const model::Vec<P>& p_hat,
+                             const model::Vec<N>& sliding) noexcept {
+  return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat),
+                                        in.gains.K_d, in.s, sliding);
+}
+
+/// The sliding term of (36), with sat for sgn.
 template <int N, int P>
 model::Vec<N> SlidingOf(const LawInput<N, P>& in, const AdaptiveState<N, P>& x) noexcept {
   return control::SlidingTerm<N>(x.sigma_0, x.sigma_1, in.gains.sliding.scale, in.s,

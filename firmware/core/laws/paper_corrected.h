@@ -10,28 +10,20 @@ struct PaperCorrected : LawBase<N, P> {
   using typename LawBase<N, P>::In, typename LawBase<N, P>::State, typename LawBase<N, P>::V;
   static constexpr LawTraits kTraits{.force_loop = true, .gains = GainSet::kPaper};
 
-  static V Known(const In& in, const State& x) noexcept {
-    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat), in.JtF_d,
-                                        in.gains.K_d, in.s);
-  }
+  static V Known(const In& in, const State& x) noexcept { return KnownForceOf(in, x.p_hat); }
   static V Unknown(const In& in, const State& x) noexcept {
-    const model::Vec<P> sign_Yts = control::Saturate(Yts(in), in.gains.sliding.phi);
+    const model::Vec<P> sign_Yts = control::Saturate(YtsOf(in), in.gains.sliding.phi);
     const model::Vec<P> p_hat = control::WorstCaseParameters<P>(in.gains.p_0, x.eta_hat, sign_Yts);
-    const V sliding = SlidingOf(in, x);
-    return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat),
-                                          in.gains.K_d, in.s, sliding);
+    return UnknownForceOf(in, p_hat, SlidingOf(in, x));
   }
   static void AdaptKnown(const In& in, State& x) noexcept {
     x.p_hat += in.T * control::KnownForceUpdate<N, P>(in.gains.Gamma_known, in.regressor.Y, in.s);
   }
   static void AdaptUnknown(const In& in, State& x) noexcept {
-    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts(in));
+    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, YtsOf(in));
     x.sigma_0 += in.T * control::Sigma0Rate<N>(in.gains.sliding.c_0, in.s);
     x.sigma_1 += in.T * control::Sigma1Rate<N>(in.gains.sliding.c_1, in.s);
   }
-
- private:
-  static model::Vec<P> Yts(const In& in) noexcept { return in.regressor.Y.transpose() * in.s; }
 };
 
 }  // namespace reed::strategy::laws

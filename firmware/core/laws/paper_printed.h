@@ -12,26 +12,22 @@ struct PaperPrinted : LawBase<N, P> {
   static constexpr LawTraits kTraits{.gains = GainSet::kPaper};
 
   static V Known(const In& in, const State& x) noexcept {
-    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, Yts(in));
-    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat), in.JtF_d,
-                                        in.gains.K_d, in.s);
+    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, YtsOf(in));
+    return KnownForceOf(in, p_hat);
   }
   static V Unknown(const In& in, const State& x) noexcept {
-    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, Yts(in));
+    const model::Vec<P> p_hat = control::PrintedParameters<P>(x.eta_hat, YtsOf(in));
     return control::PrintedUnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(p_hat),
                                                  x.sigma_0, x.sigma_1, in.s);
   }
   static void AdaptKnown(const In& in, State& x) noexcept {
-    x.eta_hat = control::PrintedEta<P>(in.gains.Gamma_known, Yts(in));
+    x.eta_hat = control::PrintedEta<P>(in.gains.Gamma_known, YtsOf(in));
   }
   static void AdaptUnknown(const In& in, State& x) noexcept {
-    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, Yts(in));
+    x.eta_hat += in.T * control::EtaRate<P>(in.gains.Gamma_unknown, YtsOf(in));
     x.sigma_0 = control::PrintedSigma<N>(in.gains.sliding.c_0, in.s);
     x.sigma_1 = control::PrintedSigma<N>(in.gains.sliding.c_1, in.s);
   }
-
- private:
-  static model::Vec<P> Yts(const In& in) noexcept { return in.regressor.Y.transpose() * in.s; }
 };
 
 }  // namespace reed::strategy::laws

@@ -1,17 +1,13 @@
 // PD with the scenario's gains. RT: safe.
 #pragma once
 
-#include "reed/core/law/law.h"
-#include "reed/core/law/pd.h"
+#include "reed/core/laws/pd.h"
 
 namespace reed::strategy::laws {
 
 template <int N, int P>
-struct PdTuned : LawBase<N, P> {
-  using typename LawBase<N, P>::In, typename LawBase<N, P>::State, typename LawBase<N, P>::V;
-
-  static V Known(const In& in, const State&) noexcept { return control::PdTorque<N>(in.gains.K_d, in.s); }
-  static constexpr auto Unknown = Known;
+struct PdTuned : Pd<N, P> {
+  static constexpr LawTraits kTraits{};
 };
 
 }  // namespace reed::strategy::laws

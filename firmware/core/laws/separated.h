@@ -12,15 +12,10 @@ struct Separated : LawBase<N, P> {
   static constexpr LawTraits kTraits{.force_loop = true, .deflection_allowed = true};
 
   static V Known(const In& in, const State& x) noexcept {
-    return control::KnownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat), in.JtF_d,
-                                        in.gains.K_d, in.s) +
-           SlidingOf(in, x) + Friction(in, x);
+    return KnownForceOf(in, x.p_hat) + SlidingOf(in, x) + Friction(in, x);
   }
   static V Unknown(const In& in, const State& x) noexcept {
-    const V sliding = SlidingOf(in, x);
-    return control::UnknownForceTorque<N>(in.arm.rotor_inertia, in.aux.v_dot, in.regressor.f(x.p_hat),
-                                          in.gains.K_d, in.s, sliding) +
-           Friction(in, x) - in.r;
+    return UnknownForceOf(in, x.p_hat, SlidingOf(in, x)) + Friction(in, x) - in.r;
   }
   static void AdaptKnown(const In& in, State& x) noexcept {
     Update(in, in.gains.Gamma_known, in.gains.Gamma_c_known, x);
