@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from processors import OLD_LIBM, PLAIN
 
 from reed_tools.gate import corpus, kept
 from reed_tools.paths import BUILD, ROOT, build
@@ -19,8 +20,6 @@ pytestmark = pytest.mark.long
 JOBS = len(os.sched_getaffinity(0))
 CROSS, SYSROOT = "aarch64-linux-gnu-g++", "/usr/aarch64-linux-gnu"
 EMULATED = ["qemu-aarch64", "-L", SYSROOT]
-PLAIN = ["qemu-x86_64", "-cpu", "Nehalem"]  # without AVX and FMA
-OLD_LIBM = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F,-AVX"}
 BUILDS = {"gcc -O2": ("g++", "-O2", []), "clang -O2": ("clang++-14", "-O2", []), "clang -O3": ("clang++-14", "-O3", []),
           "aarch64 -O2": (CROSS, "-O2", EMULATED), "aarch64 -O3": (CROSS, "-O3", EMULATED)}
 HEADERS = ("lcm", "toml++", "CLI", "nlohmann")  # of /usr/include, the same for every processor

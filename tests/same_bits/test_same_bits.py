@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from processors import OLD_LIBM, PLAIN
 
 from reed_tools.paths import BUILD, PYTHON, ROOT, program
 
@@ -22,8 +23,6 @@ BUILDS = {  # name: (compiler, its flags, what runs the program)
     "clang -O2": ("clang++-14", ["-O2"], []),
     "aarch64 -O2": ("aarch64-linux-gnu-g++", ["-O2", "-static"], ["qemu-aarch64"]),
 }
-PLAIN_PROCESSOR = "Nehalem"  # without AVX and FMA
-OLD_LIBM = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F,-AVX"}
 SCENARIOS = ["press_known", "free_motion", "press_sensor_loss"]
 RUN = ["--duration", "0.6", "--seed", "77", "--bus", "memory", "--clock", "lockstep"]
 
@@ -76,9 +75,9 @@ def test_the_closed_loop_presses(reference):
 
 def test_the_processor_changes_nothing(reference):
     """Its own copy of the clones and of the C library's functions, and the plain one."""
-    if not shutil.which("qemu-x86_64"):
-        pytest.skip("no qemu-x86_64 (sudo apt install qemu-user)")
-    assert output(["qemu-x86_64", "-cpu", PLAIN_PROCESSOR, *reference]) == output(reference) == output(reference, **OLD_LIBM)
+    if not shutil.which(PLAIN[0]):
+        pytest.skip(f"no {PLAIN[0]} (sudo apt install qemu-user)")
+    assert output([*PLAIN, *reference]) == output(reference) == output(reference, **OLD_LIBM)
 
 
 @pytest.mark.parametrize("name", BUILDS)

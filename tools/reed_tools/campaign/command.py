@@ -8,9 +8,10 @@ import tempfile
 from pathlib import Path
 
 from reed_tools import folders, streams
-from reed_tools.campaign import definition, draws, junit, one_draw, progress, verdicts
+from reed_tools.campaign import definition, draws, junit, one_draw, verdicts
 from reed_tools.campaign.definition import LARGEST, MOST_DRAWS, Campaign
 from reed_tools.engine import options as engine_options
+from reed_tools.engine import progress
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import RunError, UsageError
 from reed_tools.run import in_memory, scenario
@@ -135,10 +136,26 @@ def selected(campaign: Campaign, options: dict) -> list[int]:
     return indices
 
 
+class DrawTally(progress.Tally):
+    unit = "draws"
+
+    def __init__(self, total: int):
+        super().__init__(total)
+        self.unstable = self.outside = 0
+
+    def add(self, record: draws.Record) -> None:
+        super().add(record)
+        self.unstable += not record.stable
+        self.outside += record.stable and not record.within
+
+    def text(self) -> str:
+        return f"{self.unstable} not stable, {self.outside} outside limits"
+
+
 def run_pending(engine: Engine, one, folder: Path, campaign: Campaign, pending: list[int], finished: dict) -> None:
     """Fills `finished` and the folder's file, each draw when it is done."""
     if pending:
-        with progress.shown(campaign.name, len(pending)) as on_record:
+        with progress.shown(campaign.name, DrawTally(len(pending))) as on_record:
             for index, record in engine.map(one, pending):
                 draws.append(folder, record)
                 finished[index] = record

@@ -8,6 +8,7 @@ from pathlib import Path
 from reed_tools.campaign.definition import Campaign
 from reed_tools.campaign.draws import Record, command
 from reed_tools.campaign.verdicts import Verdict
+from reed_tools.show import junit_xml
 from reed_tools.text import plain
 
 FILE = "junit.xml"
@@ -31,14 +32,7 @@ def write(folder: Path, campaign: Campaign, records: list[Record], verdict: Verd
             xml.SubElement(case, "error", message=plain(record.message))
         elif not record.stable or record.ratio > campaign.limits["worst_ratio"]:
             xml.SubElement(case, "failure", message=plain(reason(record)))
-    cases = suite.findall("testcase")
-    suite.set("tests", str(len(cases)))
-    suite.set("failures", str(sum(case.find("failure") is not None for case in cases)))
-    suite.set("errors", str(sum(case.find("error") is not None for case in cases)))
-    path = folder / FILE
-    xml.indent(suite)
-    xml.ElementTree(suite).write(path, encoding="utf-8", xml_declaration=True)
-    return path
+    return junit_xml.write(folder / FILE, suite)
 
 
 def reason(record: Record) -> str:

@@ -3,13 +3,12 @@
 import functools
 import json
 import shlex
-import sys
 import tempfile
-import time
 from pathlib import Path
 
 from reed_tools import folders, streams
 from reed_tools.engine import options as engine_options
+from reed_tools.engine import progress
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import UsageError
 from reed_tools.faults import accepted, catalogue, cell, junit, results
@@ -19,7 +18,6 @@ from reed_tools.run import in_memory, scenario
 
 SCENARIOS = ("press_known", "press_sensor_loss", "free_motion")
 MOST_SEEDS = 10_000
-LINE_EVERY_S = 20.0
 OWN_FILES = (results.FILE, junit.FILE, "faults.html")
 EXAMPLE = """examples:
   tools/reed faults press_known --draws 1              # every fault in every phase once
@@ -69,11 +67,12 @@ def matrix(arguments, folder: Path, entries: list[dict], wanted: list[int], scen
     cells, alarms = planned(scenarios, seeds, wanted, arguments.phase)
     print(f"faults: {len(wanted)} faults, {len(cells)} cells of {', '.join(scenarios)}, {engine_options.place(arguments)}", flush=True)
     one = functools.partial(cell.run, entries)
-    rows, tally = [], Progress(len(cells))
-    with Engine(min(engine_options.jobs(arguments), max(1, len(cells))), arguments.scheduler) as engine:
+    rows = []
+    with (Engine(min(engine_options.jobs(arguments), len(cells)), arguments.scheduler) as engine,
+          progress.shown("faults", CellTally(len(cells))) as on_row):
         for _, row in engine.map(one, cells):
             rows.append(row)
-            tally.add(row)
+            on_row(row)
         if engine.interrupted:
             raise KeyboardInterrupt
     result = results.build(rows, alarms, len(scenarios) * len(seeds), allowed, {"scenarios": scenarios, "seeds": list(seeds), "build": in_memory.build()})
@@ -108,20 +107,19 @@ def command_of(arguments, scenarios: list[str]) -> str:
     return shlex.join(words)
 
 
-class Progress:
-    """A line now and then; on a terminal it stays in its place."""
+class CellTally(progress.Tally):
+    unit = "cells"
 
     def __init__(self, total: int):
-        self.total, self.done, self.undetected, self.printed = total, 0, 0, time.monotonic()
+        super().__init__(total)
+        self.undetected = 0
 
     def add(self, row: Row) -> None:
-        self.done += 1
+        super().add(row)
         self.undetected += row.verdict == "dangerous undetected"
-        terminal = sys.stdout.isatty()
-        if self.done == self.total or time.monotonic() - self.printed > (0.2 if terminal else LINE_EVERY_S):
-            self.printed = time.monotonic()
-            end = "\r" if terminal and self.done < self.total else "\n"
-            print(f"  {self.done:5d} / {self.total} cells, {self.undetected} dangerous undetected", end=end, flush=True)
+
+    def text(self) -> str:
+        return f"{self.undetected} dangerous undetected"
 
 
 def show(result: dict) -> None:

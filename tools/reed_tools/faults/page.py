@@ -5,13 +5,13 @@ from pathlib import Path
 
 from reed_tools import versions
 from reed_tools.faults.phases import PHASES
+from reed_tools.faults.results import ORDER
 from reed_tools.record.whole_file import write_text
 from reed_tools.run import in_memory
 from reed_tools.show.html_parts import Markup, again, mark, page, table
 
 FILE = "faults.html"
 SHOWN = 200  # cells in full; all of them are in faults.json
-ORDER = ("died", "refused", "not executed", "dangerous undetected", "dangerous detected", "safe undetected", "safe detected")
 SHORT = {"dangerous undetected": "DU", "dangerous detected": "DD", "safe undetected": "SU", "safe detected": "SD", "not executed": "—", "died": "died",
          "refused": "refused"}
 

@@ -1,25 +1,25 @@
-"""How far a campaign is: a bar with the time left on a terminal, plain lines without one."""
+"""How far many runs are: a bar with the time left on a terminal, plain lines without one."""
 
 import sys
 import time
 from contextlib import contextmanager
 
-from reed_tools.campaign.draws import Record
-
 LINE_EVERY_S = 20.0
 
 
 class Tally:
-    def __init__(self, total: int):
-        self.total, self.done, self.unstable, self.outside, self.started = total, 0, 0, 0, time.monotonic()
+    """Counts records. What is worth saying of them, a command says in a class of its own."""
 
-    def add(self, record: Record) -> None:
+    unit = "runs"
+
+    def __init__(self, total: int):
+        self.total, self.done, self.started = total, 0, time.monotonic()
+
+    def add(self, record) -> None:
         self.done += 1
-        self.unstable += not record.stable
-        self.outside += record.stable and not record.within
 
     def text(self) -> str:
-        return f"{self.unstable} not stable, {self.outside} outside limits"
+        return ""
 
     def left(self) -> str:
         seconds = (time.monotonic() - self.started) / self.done * (self.total - self.done)
@@ -27,9 +27,8 @@ class Tally:
 
 
 @contextmanager
-def shown(name: str, total: int):
+def shown(name: str, tally: Tally):
     """Yields on_record(record)."""
-    tally = Tally(total)
     if sys.stdout.isatty():
         with bar(name, tally) as update:
             yield update
@@ -45,7 +44,7 @@ def bar(name: str, tally: Tally):
                   TimeRemainingColumn(), transient=True) as progress:
         task = progress.add_task(name, total=tally.total, tally="")
 
-        def update(record: Record) -> None:
+        def update(record) -> None:
             tally.add(record)
             progress.update(task, advance=1, tally=tally.text())
 
@@ -56,10 +55,10 @@ def lines(tally: Tally):
     """A line now and then, and one at the end."""
     last = {"printed": time.monotonic()}
 
-    def update(record: Record) -> None:
+    def update(record) -> None:
         tally.add(record)
         if time.monotonic() - last["printed"] > LINE_EVERY_S or tally.done == tally.total:
             last["printed"] = time.monotonic()
-            print(f"  {tally.done:4d} / {tally.total} draws  {tally.text()}  {tally.left()}", flush=True)
+            print(f"  {tally.done:4d} / {tally.total} {tally.unit}  {tally.text()}  {tally.left()}", flush=True)
 
     return update
