@@ -10,6 +10,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from reed_tools.record import configuration
 from reed_tools.robots import rigid_arm
@@ -33,8 +34,8 @@ def nominal_inertia(effective):
     return np.diag(rigid_arm.mass_matrix(arm, np.array([effective["reference"]["start_rad"]]))[0])
 
 
-def grows(J, M, k, K_d, Lambda, T, cutoff_hz, gain):
-    """Spectral radius of the map from one sample to the next; the motion between by small steps of the midpoint rule."""
+def one_period(J, M, k, K_d, Lambda, T, cutoff_hz, gain=1.0):
+    """The map from one sample to the next; the motion between by small steps of the midpoint rule."""
     d = 2 * DAMPING * k / math.sqrt(k * (1 / J + 1 / M))
     A = np.array([[0, 1, 0, 0], [-k / J, -d / J, k / J, d / J], [0, 0, 0, 1], [k / M, d / M, -k / M, -d / M]])
     h, one = T / STEPS, np.eye(4)
@@ -51,7 +52,27 @@ def grows(J, M, k, K_d, Lambda, T, cutoff_hz, gain):
             motion = step @ motion + push * torque
         return np.hstack([motion, speed, angle, wanted])
 
-    return np.abs(np.linalg.eigvals(np.column_stack([period(column) for column in np.eye(7)]))).max()
+    return np.column_stack([period(column) for column in np.eye(7)])
+
+
+def grows(*loop, gain):
+    """Spectral radius of that map."""
+    return np.abs(np.linalg.eigvals(one_period(*loop, gain))).max()
+
+
+def phase_margin_deg(*loop):
+    """Cut where the law's torque leaves: the least angle to -1 where the open loop, point by point by a solver, has the size of 1."""
+    period_map, T = one_period(*loop), loop[5]
+    law, rest = period_map[6].copy(), period_map.copy()
+    rest[6] = 0
+
+    def open_loop(w):
+        return -law @ np.linalg.solve(np.exp(1j * w * T) * np.eye(7) - rest, np.eye(7)[6])
+
+    w = np.geomspace(0.1, np.pi / T, 4000)
+    sizes = np.abs([open_loop(each) for each in w]) - 1
+    crossings = [brentq(lambda x: abs(open_loop(x)) - 1, *w[i:i + 2]) for i in np.flatnonzero(sizes[:-1] * sizes[1:] <= 0)]
+    return min(abs(np.degrees(np.angle(-open_loop(each)))) for each in crossings)
 
 
 def loops(effective):
@@ -64,7 +85,7 @@ def loops(effective):
 
 
 @pytest.mark.parametrize("scenario", ["press_known", "free_motion", "joints2", "joints6", "joints7"])
-def test_the_gain_margin_is_where_the_eigenvalues_leave_the_circle(scenario, tmp_path):
+def test_the_margins_are_those_of_eigenvalues_and_of_a_solved_response(scenario, tmp_path):
     path = tmp_path / "effective.toml"
     done = config("--config", scenario, "--margins", "--write", path)
     assert done.returncode == 0, done.stderr
@@ -72,7 +93,8 @@ def test_the_gain_margin_is_where_the_eigenvalues_leave_the_circle(scenario, tmp
     assert len(rows) == len(effective["arm"]["dh"])
     for row, loop in zip(rows, loops(effective)):
         assert row["gain_margin"] >= 2 and row["phase_margin_deg"] >= 25
-        assert grows(*loop, 0.98 * row["gain_margin"]) < 1 < grows(*loop, 1.02 * row["gain_margin"])
+        assert grows(*loop, gain=0.98 * row["gain_margin"]) < 1 < grows(*loop, gain=1.02 * row["gain_margin"])
+        assert row["phase_margin_deg"] == pytest.approx(phase_margin_deg(*loop), abs=0.01)
 
 
 @pytest.mark.parametrize("scenario", SHIPPED)
