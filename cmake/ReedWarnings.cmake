@@ -3,10 +3,10 @@ add_library(reed_warnings INTERFACE)
 target_compile_options(reed_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror
   -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-conversion
-  -Wshadow -Wold-style-cast -Wcast-align -Wcast-qual -Wuseless-cast
+  -Wshadow -Wold-style-cast -Wcast-align -Wcast-qual
   -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
-  -Wnull-dereference -Wduplicated-cond -Wduplicated-branches -Wlogical-op
-  -Wformat=2 -Wimplicit-fallthrough -Wundef -Wvla)
+  -Wnull-dereference -Wformat=2 -Wimplicit-fallthrough -Wundef -Wvla
+  $<$<CXX_COMPILER_ID:GNU>:-Wuseless-cast;-Wduplicated-cond;-Wduplicated-branches;-Wlogical-op>)
 
 # Every first-party library or program: C++20, warnings, generated headers as system headers.
 function(reed_target name)

@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef REED_SANITIZED
 #define REED_HEAP_GUARD 0
 #else
 #define REED_HEAP_GUARD 1

@@ -4,8 +4,7 @@
 
 // "arch=haswell" would need that very processor and leave its successors with the plain copy.
 // A sanitizer's run time is not ready yet when the loader picks one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(REED_SANITIZED)
 #define REED_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define REED_CLONES

@@ -34,7 +34,7 @@ PACKAGE_NAMES = {  # Debian package: how README.md calls it
     "nlohmann-json3-dev": "nlohmann-json", "libgtest-dev": "GoogleTest", "libgmock-dev": "GoogleTest", "iproute2": "iproute2",
     "user-mode-linux": "User Mode Linux", "busybox-static": "busybox", "can-utils": "can-utils", "default-jre": "Java",
     "default-jdk-headless": "Java", "liblcm-java": "lcm-spy", "libjchart2d-java": "jchart2d", "clang-format-14": "clang-format",
-    "clang-14": "clang", "g++-aarch64-linux-gnu": "aarch64", "qemu-user": "qemu", "clang-tidy-14": "clang-tidy", "valgrind": "valgrind", "spin": "spin", "gcc-arm-none-eabi": "arm-none-eabi",
+    "clang-14": "clang", "libclang-rt-14-dev": "clang", "g++-aarch64-linux-gnu": "aarch64", "qemu-user": "qemu", "clang-tidy-14": "clang-tidy", "valgrind": "valgrind", "spin": "spin", "gcc-arm-none-eabi": "arm-none-eabi",
     "libstdc++-arm-none-eabi-newlib": "arm-none-eabi", "qemu-system-arm": "qemu", "rt-tests": "cyclictest", "xvfb": "xvfb", "chromium": "chromium", "zsh": "zsh"}
 
 

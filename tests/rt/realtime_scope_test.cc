@@ -63,7 +63,7 @@ TEST(RealtimeScope, ReportsARefusedPriorityWithReasonAndFix) {
   EXPECT_NE(said.find("rtprio 99"), std::string::npos) << "the fix names the limit to set: " << said;
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these turn mlockall into nothing
+#ifndef REED_SANITIZED  // these turn mlockall into nothing
 TEST(RealtimeScope, ReportsRefusedMemoryLockWithReasonAndFix) {
   const std::string said = InUnprivilegedChild([] {
     const RealtimeScope scope({.priority = 0, .cpu = -1, .lock_memory = true});
@@ -155,7 +155,7 @@ TEST(RealtimeScope, EachRequestIsInForceInsideIfGrantedAndEverythingIsPutBackOut
   }).join();
 }
 
-#ifndef __SANITIZE_ADDRESS__  // touches shadow pages of its own for every page of stack
+#ifndef REED_SANITIZED  // touches shadow pages of its own for every page of stack
 /// Reaches 256 KiB below its caller.
 [[gnu::noinline]] void UseDeepStack() {
   [[maybe_unused]] volatile unsigned char deep[256 * 1024];
