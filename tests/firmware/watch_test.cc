@@ -76,5 +76,98 @@ TEST_F(EnablingArm, WithoutAnAbsenceOldMeasurementsAreTheReason) {
   EXPECT_EQ(Check(2 * kStop + 1).trip, Reason::kStaleMeasurement);
 }
 
+/// An arm that shall start: first off, then ready.
+class WaitingArm : public ::testing::Test {
+ protected:
+  WaitingArm() {
+    measured_.drive.fill(DriveState::kReady);
+    measured_.wrench_age = 0;
+  }
+
+  /// What is reported in the cycle of that number, everything the same until then.
+  LimitCheck After(int cycles) {
+    LimitCheck check;
+    for (int cycle = 0; cycle < cycles && check.trip == Reason::kNone; ++cycle) {
+      check = start_.Check(measured_, supervisor_);
+      supervisor_.Step({.all_fresh = measured_.OldestAge() == 0,
+                        .drives_ready = measured_.AllDrives(DriveState::kReady),
+                        .drives_braked = measured_.AnyDrive(DriveState::kBraked),
+                        .tared = tared_});
+    }
+    return check;
+  }
+
+  static constexpr int kPatience = 2000;
+  mode::Supervisor supervisor_{true};
+  Measurement<kJoints> measured_;
+  bool tared_ = true;
+  StartWatch<kJoints> start_{0.001};
+};
+
+TEST_F(WaitingArm, IsGivenNoReasonWhenItStarts) {
+  EXPECT_EQ(After(3 * kPatience).trip, Reason::kNone);
+  EXPECT_EQ(supervisor_.Request(), DriveRequest::kEnable);
+}
+
+TEST_F(WaitingArm, WaitsForAnArmThatDoesNotAnswerAtAll) {
+  measured_.age.fill(Measurement<kJoints>::kNever);
+  EXPECT_EQ(After(3 * kPatience).trip, Reason::kNone);
+}
+
+TEST_F(WaitingArm, NamesTheJointThatNeverAnswers) {
+  measured_.age = {0, Measurement<kJoints>::kNever};
+  EXPECT_EQ(After(kPatience).trip, Reason::kNone);
+  const LimitCheck check = After(1);
+  EXPECT_EQ(check.trip, Reason::kStaleMeasurement);
+  EXPECT_EQ(check.joint, 1);
+}
+
+TEST_F(WaitingArm, NamesTheJointThatIsAlwaysLate) {
+  measured_.age = {3, 0};
+  const LimitCheck check = After(kPatience + 1);
+  EXPECT_EQ(check.trip, Reason::kStaleMeasurement);
+  EXPECT_EQ(check.joint, 0);
+  EXPECT_EQ(check.value, 3);
+}
+
+TEST_F(WaitingArm, ADriveInFaultIsReportedAtOnceBeforeTheArmHasStarted) {
+  measured_.drive = {DriveState::kReady, DriveState::kFault};
+  const LimitCheck check = After(mode::Supervisor::kFreshInRow + 1);
+  EXPECT_EQ(check.trip, Reason::kDriveFault);
+  EXPECT_EQ(check.joint, 1);
+  EXPECT_EQ(check.value, static_cast<double>(DriveState::kFault));
+}
+
+TEST_F(WaitingArm, NamesTheDriveThatDoesNotGetReady) {
+  measured_.drive = {DriveState::kReady, DriveState::kOff};
+  const LimitCheck check = After(kPatience + 1);
+  EXPECT_EQ(check.trip, Reason::kDriveFault);
+  EXPECT_EQ(check.joint, 1);
+  EXPECT_EQ(check.value, static_cast<double>(DriveState::kOff));
+}
+
+TEST_F(WaitingArm, NamesTheDriveThatStaysBraked) {
+  measured_.drive = {DriveState::kOff, DriveState::kBraked};
+  const LimitCheck check = After(kPatience + 1);
+  EXPECT_EQ(check.trip, Reason::kDriveFault);
+  EXPECT_EQ(check.joint, 1);
+  EXPECT_EQ(check.value, static_cast<double>(DriveState::kBraked));
+}
+
+TEST_F(WaitingArm, SaysThatTheForceSensorsZeroIsMissing) {
+  tared_ = false;
+  measured_.wrench_age = 700;
+  const LimitCheck check = After(kPatience + 1);
+  EXPECT_EQ(check.trip, Reason::kStaleWrench);
+  EXPECT_EQ(check.value, 700);
+}
+
+TEST_F(WaitingArm, IsOnlyWatchedWhereNobodyWantsItToStart) {
+  supervisor_ = mode::Supervisor(false);
+  measured_.drive.fill(DriveState::kFault);
+  measured_.age = {3, 0};
+  EXPECT_EQ(After(3 * kPatience).trip, Reason::kNone);
+}
+
 }  // namespace
 }  // namespace reed::protect

@@ -84,8 +84,8 @@ def test_a_damaged_origin_is_named(tripped):
 @pytest.mark.parametrize("text, value, words", [
     ("contact force limit, N", 60.118, "contact force limit: 60.12 N, at 0.708 s"),
     ("joint speed limit, rad/s", 6.5, "joint speed limit: 6.5 rad/s, at 0.708 s"),
-    ("a drive reports a fault or a closed brake, or was not enabled in time; its state", 3.0,
-     "a drive reports a fault or a closed brake, or was not enabled in time; its state: 3, at 0.708 s"),
+    ("a drive reports a fault or a closed brake, or was not ready or enabled in time; its state", 3.0,
+     "a drive reports a fault or a closed brake, or was not ready or enabled in time; its state: 3, at 0.708 s"),
     ("the law's torque is not a finite number", None, "the law's torque is not a finite number, at 0.708 s"),
 ])
 def test_reasons_read_as_sentences(text, value, words):

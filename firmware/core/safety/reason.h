@@ -88,7 +88,7 @@ constexpr const char* Text(int code) noexcept {
     case Reason::kStaleMeasurement:
       return "joint measurement too old, cycles";
     case Reason::kDriveFault:
-      return "a drive reports a fault or a closed brake, or was not enabled in time; its state";
+      return "a drive reports a fault or a closed brake, or was not ready or enabled in time; its state";
     case Reason::kForeignController:
       return "another controller sends on this bus";
     case Reason::kUnexpectedJoint:

@@ -46,6 +46,10 @@ class Supervisor {
   Mode mode() const noexcept { return mode_; }
   bool start_wanted() const noexcept { return start_wanted_; }
   bool enabling() const noexcept { return enabling_; }
+  /// The operator wants it, and the drives are not asked to enable yet.
+  bool awaits_start() const noexcept {
+    return start_wanted_ && !enabling_ && (mode_ == Mode::kOff || mode_ == Mode::kReady);
+  }
   /// Everything is ready but the force sensor's zero may be missing.
   bool awaits_tare() const noexcept { return mode_ == Mode::kReady && start_wanted_ && !enabling_; }
   int cycles_enabling() const noexcept { return cycles_enabling_; }

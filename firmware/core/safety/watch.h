@@ -8,6 +8,7 @@
 #include "reed/core/cycle_state.h"
 #include "reed/core/measurement.h"
 #include "reed/core/safety/limits.h"
+#include "reed/core/safety/start_watch.h"
 #include "reed/core/safety/supervisor.h"
 
 namespace reed::protect {
@@ -15,7 +16,7 @@ namespace reed::protect {
 template <int N>
 class Watch {
  public:
-  explicit Watch(double T) noexcept : T_(T) {}
+  explicit Watch(double T) noexcept : T_(T), start_(T) {}
 
   /// Trips are checked only while torque may flow: an arm at rest behind closed brakes is safe. One that waits for its
   /// force sensor's zero trips where that sensor is at the end of its range: it would wait for ever. source: of the last
@@ -23,19 +24,19 @@ class Watch {
   LimitCheck CheckState(const Measurement<N>& measured, const CycleState& state,
                         const mode::Supervisor& supervisor, const Limits<N>& limits,
                         strategy::ForceSource source, double contact_force) noexcept {
-    CountIncomplete(measured, supervisor);
+    const LimitCheck no_start = start_.Check(measured, supervisor);
     NoteAbsence(state);
-    return NameAbsence(Check(measured, state, supervisor, limits, source, contact_force));
+    return NameAbsence(Check(measured, state, supervisor, limits, source, contact_force, no_start));
   }
 
  private:
   LimitCheck Check(const Measurement<N>& measured, const CycleState& state,
                    const mode::Supervisor& supervisor, const Limits<N>& limits, strategy::ForceSource source,
-                   double contact_force) const noexcept {
+                   double contact_force, const LimitCheck& no_start) const noexcept {
     const bool active = supervisor.mode() == mode::Mode::kActive;
     if (measured.foreign_controller) return {Reason::kForeignController, -1, 0.0, 0};
     if (measured.unexpected_joint >= 0) return {Reason::kUnexpectedJoint, measured.unexpected_joint, 0.0, 0};
-    if (cycles_incomplete_ * T_ > kPatience_s) return Stale(measured);
+    if (no_start.trip != Reason::kNone) return no_start;
     const bool wrench_fresh = !limits.TooOld(measured.wrench_age);
     const bool saturated = wrench_fresh && measured.wrench_saturated;
     if (supervisor.Request() != DriveRequest::kEnable)
@@ -77,18 +78,6 @@ class Watch {
     return check;
   }
 
-  static LimitCheck Stale(const Measurement<N>& measured) noexcept {
-    return {Reason::kStaleMeasurement, measured.OldestJoint(), static_cast<double>(measured.OldestAge()), 0};
-  }
-
-  /// An arm that shall start, and of which some joints never answered, will not start by waiting.
-  void CountIncomplete(const Measurement<N>& measured, const mode::Supervisor& supervisor) noexcept {
-    const bool waits = supervisor.mode() == mode::Mode::kOff && supervisor.start_wanted();
-    const bool incomplete =
-        measured.OldestAge() == Measurement<N>::kNever && measured.YoungestAge() < Measurement<N>::kNever;
-    cycles_incomplete_ = waits && incomplete ? cycles_incomplete_ + 1 : 0;
-  }
-
   /// Of a drive that is requested to enable. The others already have torque while one of them is still enabling. A
   /// drive that has braked needs a new start (supervisor.h).
   bool DriveStateAllowed(DriveState drive, const mode::Supervisor& supervisor) const noexcept {
@@ -97,13 +86,12 @@ class Watch {
     return drive != DriveState::kFault;
   }
 
-  static constexpr double kPatience_s = 2.0;
   static constexpr double kTimeToEnable_s = 1.0;  // a brake takes some 0.1 s to open
 
   double T_;
   int absent_cycles_ = 0;  // of the last absence
   int cycles_since_absence_ = Measurement<N>::kNever;
-  int cycles_incomplete_ = 0;  // off, although an arm answers
+  StartWatch<N> start_;
 };
 
 }  // namespace reed::protect
