@@ -23,15 +23,16 @@ struct BelievedWall {
 
 /// One leg of the reference, executed in order; the last one holds its end.
 struct ReferenceLeg {
-  enum class Kind { kHold, kJoint, kCartesian, kSlide, kSine } kind = Kind::kHold;
+  enum class Kind { kHold, kJoint, kCartesian, kSlide, kSine, kFourier } kind = Kind::kHold;
   double duration_s = 0.0;
   std::vector<double> to_rad;  // kJoint: minimum-jerk to here
   Eigen::Vector3d by_m =
       Eigen::Vector3d::Zero();  // kCartesian: minimum-jerk straight displacement of the tool point
   Eigen::Vector3d amplitude_m =
       Eigen::Vector3d::Zero();        // kSlide: sinusoid about where the leg starts, world frame
-  double frequency_hz = 0.0;          // kSlide, kSine
+  double frequency_hz = 0.0;          // kSlide, kSine; kFourier: of the first harmonic
   std::vector<double> amplitude_rad;  // kSine: joint sinusoid about where the leg starts
+  std::vector<std::vector<double>> sine_rad, cosine_rad;  // kFourier: per harmonic and joint (fourier_leg.h)
 };
 
 struct ReferenceConfig {

@@ -39,6 +39,7 @@ struct DriveConfig {
 
 /// [sensors] from the truth to a frame.
 struct SensorConfig : SensorData {
+  double encoder_noise_rad = 0.0;  // standard deviation of an angle, before it becomes a mark
   double moment_noise_Nm = 0.005;
   double moment_quantum_Nm = 0.001;
   Eigen::Vector3d force_bias_N = Eigen::Vector3d::Zero();

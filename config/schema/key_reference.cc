@@ -34,6 +34,9 @@ class Lister {
   void Numbers(const char* key, const std::vector<double>&, Bound bound, const char* doc) {
     Row(key, "list, each " + ToText(bound), "", doc);
   }
+  void Rows(const char* key, const std::vector<std::vector<double>>&, Bound bound, const char* doc) {
+    Row(key, "list of rows, each number " + ToText(bound), "", doc);
+  }
   void Required(const char* key, double, Bound bound, const char* doc) {
     Row(key, ToText(bound), "needed", doc);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reed/config/controller/fourier_leg.h"
 #include "reed/config/schema/bound.h"
 #include "reed/config/schema/known_mass.h"
 #include "reed/config/schema/rigid_pose.h"
@@ -105,9 +106,37 @@ class LawRules : public RuleContext {
     using Kind = ReferenceLeg::Kind;
     for (std::size_t i = 0; i < s_.reference.legs.size(); ++i) {
       const ReferenceLeg& leg = s_.reference.legs[i];
-      if ((leg.kind == Kind::kSlide || leg.kind == Kind::kSine) && leg.frequency_hz == 0.0)
+      const bool swings = leg.kind == Kind::kSlide || leg.kind == Kind::kSine || leg.kind == Kind::kFourier;
+      if (swings && leg.frequency_hz == 0.0)
         Fail("reference.legs[" + std::to_string(i) + "].frequency_hz",
-             "missing; a slide or sine without it stands still");
+             "missing; a slide, sine or fourier without it stands still");
+    }
+  }
+
+  /// A series has no fade: its periods begin at rest, and it ends where one begins.
+  void FourierLegsRestAtTheirEnds() const {
+    constexpr double kRest_radps = 1e-3, kRest_radps2 = 0.05, kPeriods = 1e-6;
+    for (std::size_t i = 0; i < s_.reference.legs.size(); ++i) {
+      const ReferenceLeg& leg = s_.reference.legs[i];
+      if (leg.kind != ReferenceLeg::Kind::kFourier) continue;
+      const std::string key = "reference.legs[" + std::to_string(i) + "].";
+      if (leg.sine_rad.empty() && leg.cosine_rad.empty())
+        Fail(key + "kind", "a fourier leg needs sine_rad or cosine_rad");
+      for (std::size_t j = 0; j < s_.arm.joints.size(); ++j) {
+        const FourierStart start = StartOf(leg, j);
+        if (std::abs(start.speed_radps) > kRest_radps)
+          Fail(key + "sine_rad", Joint(j) + "the series starts at " + ToShortText(start.speed_radps) +
+                                     " rad/s; allowed: 0, so the sum of k times its k-th row is 0");
+        if (std::abs(start.acceleration_radps2) > kRest_radps2)
+          Fail(key + "cosine_rad", Joint(j) + "the series starts with " +
+                                       ToShortText(start.acceleration_radps2) +
+                                       " rad/s²; allowed: 0, so the sum of k² times its k-th row is 0");
+      }
+      const double periods = leg.duration_s * leg.frequency_hz;
+      if (std::abs(periods - std::round(periods)) > kPeriods)
+        Fail(key + "duration_s", ToText(leg.duration_s) + " s are " + ToShortText(periods) +
+                                     " periods of a fourier leg; allowed: whole ones, of " +
+                                     ToShortText(1.0 / leg.frequency_hz) + " s");
     }
   }
 
@@ -174,7 +203,7 @@ class LawRules : public RuleContext {
   /// Over every leg's samples; the plan itself is made later, by the controller.
   double NearestToWall() const {
     using Kind = ReferenceLeg::Kind;
-    constexpr int kSamples = 20;
+    constexpr int kSamples = 20, kFourierSamples = 200;
     std::vector<double> q = s_.reference.start_rad;
     Vector3d tip = PoseOf(s_.arm, q).tip;
     double nearest = Distance(tip);
@@ -187,6 +216,14 @@ class LawRules : public RuleContext {
       } else if (leg.kind == Kind::kSlide) {
         pass(tip + leg.amplitude_m);
         pass(tip - leg.amplitude_m);
+      } else if (leg.kind == Kind::kFourier) {
+        const std::vector<double> from = q;
+        for (int k = 0; k < kFourierSamples; ++k) {
+          for (std::size_t i = 0; i < q.size(); ++i)
+            q[i] = from[i] + FourierOffset(leg, i, k / (kFourierSamples * leg.frequency_hz));
+          pass(PoseOf(s_.arm, q).tip);
+        }
+        q = from;
       } else if (leg.kind == Kind::kJoint || leg.kind == Kind::kSine) {
         const bool swings = leg.kind == Kind::kSine;
         const std::vector<double> from = q;
@@ -239,6 +276,7 @@ void CheckPlausibleLaw(const Document& doc, const Scenario& scenario) {
   rules.KnownFrictionIsDeclared();
   rules.ForceIsBelowItsLimit();
   rules.SwingsHaveAFrequency();
+  rules.FourierLegsRestAtTheirEnds();
   rules.NormalCanBeFelt();
   rules.WallIsMet();
   rules.LoopsHaveMargin();

@@ -5,6 +5,7 @@
 
 #include "reed/config/schema/allowed.h"
 #include "reed/config/schema/text_limits.h"
+#include "reed/config/sizes/sizes.h"
 
 namespace reed {
 
@@ -113,8 +114,20 @@ void Reader::PerJoint(const char* key, std::vector<double>& value, Bound bound, 
                   " joints; one per joint, or one for all");
 }
 
+void Reader::Rows(const char* key, std::vector<std::vector<double>>& value, Bound bound, const char*) {
+  if (Get(key) == nullptr) return;
+  value = Rows(key, 1, kMaxJoints);
+  for (std::size_t i = 0; i < value.size(); ++i)
+    for (const double number : value[i])
+      if (number < bound.lo || number > bound.hi)
+        Fail(std::string(key) + "[" + std::to_string(i) + "]",
+             ToText(number) + " is out of range; allowed: " + ToText(bound));
+}
+
 std::vector<std::vector<double>> Reader::Rows(const char* key, std::size_t width, std::size_t widest) {
-  const std::string size = std::to_string(width) + (widest > width ? " or " + std::to_string(widest) : "");
+  const std::string size = std::to_string(width) + (widest > width + 1 ? " ... " + std::to_string(widest)
+                                                    : widest > width   ? " or " + std::to_string(widest)
+                                                                       : "");
   toml::node* node = Get(key);
   std::vector<std::vector<double>> rows;
   if (node == nullptr) return rows;

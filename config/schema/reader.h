@@ -25,6 +25,8 @@ class Reader {
   void Text(const char* key, std::string& value, const char* doc);
   void Vector(const char* key, Eigen::Vector3d& value, Bound bound, const char* doc);
   void Numbers(const char* key, std::vector<double>& value, Bound bound, const char* doc);
+  /// A list of rows, one number per joint in each.
+  void Rows(const char* key, std::vector<std::vector<double>>& value, Bound bound, const char* doc);
   /// A number without a default.
   void Required(const char* key, double& value, Bound bound, const char* doc);
   /// None, one for all joints, or one per joint.

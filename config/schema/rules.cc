@@ -33,6 +33,10 @@ class Rules : public RuleContext {
       if (leg.duration_s <= 0.0) Fail(key + "duration_s", "missing; s");
       if (leg.kind == ReferenceLeg::Kind::kJoint) PerJoint(key + "to_rad", leg.to_rad, true);
       if (leg.kind == ReferenceLeg::Kind::kSine) PerJoint(key + "amplitude_rad", leg.amplitude_rad, true);
+      for (std::size_t k = 0; k < leg.sine_rad.size(); ++k)
+        PerJoint(key + "sine_rad[" + std::to_string(k) + "]", leg.sine_rad[k], true);
+      for (std::size_t k = 0; k < leg.cosine_rad.size(); ++k)
+        PerJoint(key + "cosine_rad[" + std::to_string(k) + "]", leg.cosine_rad[k], true);
     }
   }
 

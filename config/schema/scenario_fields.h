@@ -14,7 +14,7 @@ inline constexpr const char* kForceSources[] = {"none", "known", "unknown", "aut
 inline constexpr const char* kOverrunPolicies[] = {"keep_grid", "skip", "hold", "stop"};
 inline constexpr const char* kPhaseActions[] = {"count", "hold", "degrade", "fault"};
 inline constexpr const char* kEdges[] = {"rising", "falling"};
-inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine"};
+inline constexpr const char* kLegKinds[] = {"hold", "joint", "cartesian", "slide", "sine", "fourier"};
 
 template <typename V>
 void Fields(V& v, PlantModelConfig& c) {
@@ -66,6 +66,8 @@ void Fields(V& v, SensorData& c) {
 template <typename V>
 void Fields(V& v, SensorConfig& c) {
   Fields(v, static_cast<SensorData&>(c));
+  v.Number("encoder_noise_rad", c.encoder_noise_rad, {"rad", 0, 0.01},
+           "standard deviation of an angle, before it is rounded to a step");
   v.Number("moment_noise_Nm", c.moment_noise_Nm, {"N·m", 0, 100}, "standard deviation per axis");
   v.Number("moment_quantum_Nm", c.moment_quantum_Nm, {"N·m", 0, 10}, "step of the moment reading");
   v.Vector("force_bias_N", c.force_bias_N, {"N", -100, 100},
@@ -129,7 +131,7 @@ void Fields(V& v, ReferenceConfig& c) {
 
 template <typename V>
 void Fields(V& v, ReferenceLeg& c) {
-  v.Choice("kind", c.kind, kLegKinds, "hold | joint | cartesian | slide | sine");
+  v.Choice("kind", c.kind, kLegKinds, "hold | joint | cartesian | slide | sine | fourier");
   v.Number("duration_s", c.duration_s, {"s", 1e-3, 3600}, "of the leg");
   v.Numbers("to_rad", c.to_rad, {"rad", -6.3, 6.3}, "joint: minimum-jerk move to these angles");
   v.Vector(
@@ -137,9 +139,13 @@ void Fields(V& v, ReferenceLeg& c) {
       "cartesian: minimum-jerk displacement of the tool point, orientation kept as far as the joints allow");
   v.Vector("amplitude_m", c.amplitude_m, {"m", -1, 1},
            "slide: sinusoid of the tool point about the start of the leg");
-  v.Number("frequency_hz", c.frequency_hz, {"Hz", 0, 50}, "slide, sine");
+  v.Number("frequency_hz", c.frequency_hz, {"Hz", 0, 50}, "slide, sine; fourier: of the first harmonic");
   v.Numbers("amplitude_rad", c.amplitude_rad, {"rad", -3.2, 3.2},
             "sine: per joint, about the start of the leg");
+  v.Rows("sine_rad", c.sine_rad, {"rad", -3.2, 3.2},
+         "fourier: a row per harmonic k, a number per joint: times sin(2 pi k frequency_hz t)");
+  v.Rows("cosine_rad", c.cosine_rad, {"rad", -3.2, 3.2},
+         "fourier: likewise, times cos(2 pi k frequency_hz t) - 1");
 }
 
 template <typename V>

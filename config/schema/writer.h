@@ -38,6 +38,11 @@ class Writer {
   void Numbers(const char* key, const std::vector<double>& value, Bound, const char*) {
     if (!value.empty()) table_.insert_or_assign(key, ToToml(value));
   }
+  void Rows(const char* key, const std::vector<std::vector<double>>& rows, Bound, const char*) {
+    toml::array out;
+    for (const std::vector<double>& row : rows) out.push_back(ToToml(row));
+    if (!rows.empty()) table_.insert_or_assign(key, out);
+  }
   void Required(const char* key, double value, Bound bound, const char* doc) {
     Number(key, value, bound, doc);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reed/config/controller/controller_config.h"
+#include "reed/config/controller/fourier_leg.h"
 #include "reed/core/reference/joint_path.h"
 #include "reed/core/reference/minimum_jerk.h"
 #include "reed/firmware/setup/inverse_kinematics.h"
@@ -76,6 +77,11 @@ class PathPlanner {
         const model::Vec<N> amplitude = Eigen::Map<const model::Vec<N>>(leg.amplitude_rad.data());
         return q_start + Swing(leg, t, ends) * amplitude;
       }
+      case Kind::kFourier: {
+        model::Vec<N> q = q_start;
+        for (int i = 0; i < N; ++i) q[i] += FourierOffset(leg, static_cast<std::size_t>(i), t);
+        return q;
+      }
       case Kind::kCartesian:
         return SolveInverseKinematics<N>(pose_of_, start.tip + MinimumJerk(t, leg.duration_s).s * leg.by_m,
                                          start.R_last(), q_near);
@@ -95,6 +101,11 @@ class PathPlanner {
     return ends ? sine * MinimumJerk(leg.duration_s - t, half_s).s : sine;
   }
 
+  static std::size_t HighestHarmonic(const ReferenceLeg& leg) {
+    return leg.kind == ReferenceLeg::Kind::kFourier ? std::max(leg.sine_rad.size(), leg.cosine_rad.size())
+                                                    : 1;
+  }
+
   /// What is shorter than ten knots would be followed in part, or not at all.
   void CheckLegs() const {
     for (std::size_t i = 0; i < scenario_.reference.legs.size(); ++i) {
@@ -105,8 +116,9 @@ class PathPlanner {
         throw std::runtime_error(key + "duration_s: " + std::to_string(leg.duration_s) +
                                  " s; allowed for a leg that moves: " + std::to_string(kShortest) +
                                  " s and more");
-      if (leg.frequency_hz * kShortest > 1.0 + kRounding)
-        throw std::runtime_error(key + "frequency_hz: " + std::to_string(leg.frequency_hz) +
+      const double highest_hz = leg.frequency_hz * static_cast<double>(HighestHarmonic(leg));
+      if (highest_hz * kShortest > 1.0 + kRounding)
+        throw std::runtime_error(key + "frequency_hz: " + std::to_string(highest_hz) +
                                  " Hz; allowed: up to " + std::to_string(1.0 / kShortest) + " Hz");
     }
   }

@@ -147,6 +147,49 @@ TEST(PathPlanner, ASineOrASlideThatEndsWithinTheRunEndsAtRest) {
   }
 }
 
+TEST(PathPlanner, AFourierLegIsItsSeriesAndEndsWhereItStarts) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg leg = Leg(ReferenceLeg::Kind::kFourier, 1.6);
+  leg.frequency_hz = 0.625;
+  leg.sine_rad = {{0.2, -0.1}, {-0.1, 0.05}};
+  leg.cosine_rad = {{0.08, 0.12}, {-0.02, -0.03}};
+  const model::Vec<2> start(0.4, 1.1);
+  const PlannedPath<2> planned = bench.Plan(start, {leg, Leg(ReferenceLeg::Kind::kHold, 0.3)});
+  const JointPath<2> path = planned.View();
+  const double w = 2.0 * 3.14159265358979323846 * leg.frequency_hz;
+  for (int k = 1; k < 150; ++k) {
+    const double t = 0.0107 * k;
+    const control::Reference<2> at = path.At(t);
+    for (int i = 0; i < 2; ++i) {
+      const std::size_t j = static_cast<std::size_t>(i);
+      const double s1 = leg.sine_rad[0][j], s2 = leg.sine_rad[1][j];
+      const double c1 = leg.cosine_rad[0][j], c2 = leg.cosine_rad[1][j];
+      EXPECT_NEAR(at.theta_d[i] - start[i],
+                  s1 * std::sin(w * t) + s2 * std::sin(2 * w * t) + c1 * (std::cos(w * t) - 1.0) +
+                      c2 * (std::cos(2 * w * t) - 1.0),
+                  1e-8)  // between the path's knots
+          << t;
+      EXPECT_NEAR(at.theta_d_dot[i],
+                  w * (s1 * std::cos(w * t) + 2 * s2 * std::cos(2 * w * t) - c1 * std::sin(w * t) -
+                       2 * c2 * std::sin(2 * w * t)),
+                  1e-4)
+          << t;
+    }
+  }
+  EXPECT_LT((path.At(1.8).theta_d - start).norm(), 1e-12);
+  EXPECT_LT(path.At(0.0).theta_d_dot.norm() + path.At(1.8).theta_d_dot.norm(), 1e-12);
+}
+
+TEST(PathPlanner, AHarmonicThatTheKnotsWouldMissIsRefused) {
+  Bench<2> bench(test::ArmP2());
+  ReferenceLeg leg = Leg(ReferenceLeg::Kind::kFourier, 1.0);
+  leg.frequency_hz = 8.0;
+  leg.sine_rad = {{1e-3, 0.0}, {-5e-4, 0.0}};
+  EXPECT_EQ(bench.Refusal({0.4, 1.1}, {leg}), "accepted");
+  leg.cosine_rad = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+  EXPECT_NE(bench.Refusal({0.4, 1.1}, {leg}).find("24.000000 Hz; allowed: up to 20"), std::string::npos);
+}
+
 TEST(PathPlanner, ALegThatLeavesTheJointRangeIsRefusedByJointTimeAndRange) {
   Bench<2> bench(test::ArmP2());
   ReferenceLeg move = Leg(ReferenceLeg::Kind::kJoint, 1.0);

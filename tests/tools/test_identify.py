@@ -96,7 +96,9 @@ def test_the_bodies_are_possible_and_have_the_base_parameters(found):
     friction = [row["estimate"] for row in found["parameters"][-2 * arm.dof:]]
     assert min(friction) >= 0
     again = own.B @ np.concatenate([*bodies, friction])
-    assert np.allclose(again, [row["estimate"] for row in found["parameters"]], atol=1e-3 * max(row["sigma"] for row in found["parameters"]))
+    estimate, sigma = (np.array([row[key] for row in found["parameters"]]) for key in ("estimate", "sigma"))
+    # Where the nearest bodies are less than a hundredth of a standard deviation away, the free estimate stands.
+    assert (np.abs(again - estimate) <= 0.01 * sigma + 1e-12).all()
 
 
 def test_an_estimate_that_no_body_has_gives_the_nearest_that_bodies_have():
@@ -180,14 +182,23 @@ def test_wrong_input_is_one_line(runs, argv, said):
     assert said in answer.stderr
 
 
-def test_a_motion_keeps_the_limits(runs):
+def test_a_motion_is_a_fourier_series_at_rest_at_its_ends_and_keeps_the_limits(runs):
+    """Of what the file says: the series by its formula, speeds and accelerations by differences."""
     arm = nominal.load("a5")
     scenario = tomllib.loads((runs / "1.toml").read_text())
-    poses = np.array([scenario["reference"]["start_rad"], *(leg["to_rad"] for leg in scenario["reference"]["legs"])])
-    assert (poses > arm.position_min + 0.05).all() and (poses < arm.position_max - 0.05).all()
-    q, qd, qdd = excite.sampled(poses, np.array([leg["duration_s"] for leg in scenario["reference"]["legs"]]))
+    leg, = scenario["reference"]["legs"]
+    sine, cosine = np.array(leg["sine_rad"]), np.array(leg["cosine_rad"])
+    assert leg["kind"] == "fourier" and sine.shape == cosine.shape == (excite.HARMONICS, 5)
+    t = np.linspace(0, leg["duration_s"], 20001)
+    turn = 2 * np.pi * leg["frequency_hz"] * np.outer(t, np.arange(1, excite.HARMONICS + 1))
+    q = np.array(scenario["reference"]["start_rad"]) + np.sin(turn) @ sine + (np.cos(turn) - 1) @ cosine
+    qd = np.gradient(q, t, axis=0)
+    qdd = np.gradient(qd, t, axis=0)
+    assert np.abs(q[[0, -1]] - scenario["reference"]["start_rad"]).max() < 1e-9 and np.abs(qd[[0, -1]]).max() < 2e-3
+    assert (q > arm.position_min + 0.05).all() and (q < arm.position_max - 0.05).all()
     torque = regressor.inverse_dynamics(arm.chain, q, qd, qdd) @ arm.inertial + arm.rotor_inertia * qdd
-    assert (np.abs(qd) < arm.speed_limit).all() and (np.abs(torque) < arm.torque_limit).all()
+    assert (np.abs(qd) < 0.65 * arm.speed_limit).all() and (np.abs(torque) < 0.75 * arm.torque_limit).all()
+    assert np.abs(qd).max() > 0.5  # and is no standstill
 
 
 def test_smoothing_keeps_cubics_and_its_derivatives_belong_to_it():

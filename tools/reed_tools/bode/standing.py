@@ -1,4 +1,4 @@
-"""A scenario that stands still once it is there: its slides and sines become a hold, so that only the excitation moves the arm."""
+"""A scenario that stands still once it is there: its slides, sines and Fourier series become a hold, so that only the excitation moves the arm."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ def text(effective: Path) -> str:
 
 def leg(block: str) -> str:
     own, bracket, rest = block.partition("\n[")
-    if not any(f"kind = {quote}{kind}{quote}" in own for kind in ("slide", "sine") for quote in "'\""):
+    if not any(f"kind = {quote}{kind}{quote}" in own for kind in ("slide", "sine", "fourier") for quote in "'\""):
         return block
     kept = [line for line in own.splitlines() if line.split("=")[0].strip() == "duration_s"]
     return "\nkind = 'hold'\n" + "\n".join(kept) + "\n" + bracket + rest

@@ -32,7 +32,7 @@ def add_arguments(parser) -> None:
                         help="a run that is not used: how well its torques are predicted; repeatable")
     parser.add_argument("--cutoff", type=float, default=CUTOFF_HZ, metavar="HZ", help="of the low pass over regressor and torque; default %(default)g")
     parser.add_argument("--write", type=folders.argument, metavar="ARM_OUT.toml", help="the arm file again, with the estimates as p_nom and coulomb_nominal")
-    parser.add_argument("--excite", metavar="ARM", help="instead: write a scenario of moves within the arm's limits with a low condition number")
+    parser.add_argument("--excite", metavar="ARM", help="instead: write a scenario: Fourier series of the joints within limits, with a low condition number")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="with --excite: another motion")
     parser.add_argument("--out", type=folders.argument, metavar="FILE.toml", help="with --excite: where to; default excite_ARM.toml")
     parser.add_argument("--json", action="store_true", help="print {parameters, condition, residual, validation, structural, bodies}")
@@ -142,7 +142,7 @@ def excite(arguments) -> int:
     text, motion = motions.scenario(arm, nominal.for_file(arguments.excite), arguments.seed)
     write_text(target, text)
     if arguments.json:
-        print(json.dumps({"file": str(target), "condition": motion.condition, "duration_s": float(motion.durations.sum())}))
+        print(json.dumps({"file": str(target), "condition": motion.condition, "duration_s": motion.period_s}))
     else:
-        print(f"written {target}: {motion.durations.sum():.1f} s, condition number {motion.condition:.1f}; run it with `tools/reed run {target}`")
+        print(f"written {target}: {motion.period_s:g} s, condition number {motion.condition:.1f}; run it with `tools/reed run {target}`")
     return 0

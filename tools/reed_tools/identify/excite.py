@@ -1,5 +1,8 @@
-"""A motion that tells an arm's parameters apart: moves between poses, chosen so that the regressor's condition number is low.
-Every move keeps a share of the nominal arm's limits of angle, speed and torque. It knows nothing of what stands around the arm."""
+"""A motion that tells an arm's parameters apart: one period of a Fourier series per joint, chosen so that the regressor's condition
+number is low. It begins and ends at rest, and keeps a share of the nominal arm's limits of angle, speed and torque. It knows
+nothing of what stands around the arm.
+
+  q(t) = m + sum_k s_k sin(k w t) + c_k cos(k w t),   sum k s_k = 0 (speed at the start), sum k^2 c_k = 0 (acceleration)"""
 
 from dataclasses import dataclass
 
@@ -7,26 +10,33 @@ import numpy as np
 
 from reed_tools.errors import UsageError
 from reed_tools.identify.base import Base, base_of
+from reed_tools.identify.filtering import diagonal
 from reed_tools.identify.least_squares import LARGEST_CONDITION, condition_of
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.robots.regressor import inverse_dynamics
 from reed_tools.scenarios import gains
 from reed_tools.scenarios.new import plant
 
-POSES = 18
-RANGE, SPEED, TORQUE = 0.75, 0.6, 0.6  # shares of the limits
+HARMONICS = 6
+RANGE, SPEED, TORQUE = 0.75, 0.6, 0.7  # shares of the limits
 WIDEST_rad = 1.6       # from the middle of a joint's range
-SHORTEST_s, LONGEST_s = 0.7, 6.0
-PER_MOVE = 14          # samples
-TRIALS = 260
-PEAK_SPEED = 1.875     # of a minimum-jerk move, times its length over its time
+SHORTEST_s, LONGEST_s = 20.0, 60.0  # of the period
+FEW, MANY = 80, 240    # samples of a period: for its amplitude, and for the regressor
+STARTS, TRIALS = 40, 260
+SHRINK, LEAST_SIZE = 0.85, 0.2  # of the amplitude where torques are too large
 
 
 @dataclass
 class Motion:
-    poses: np.ndarray       # rad, [POSES, dof]
-    durations: np.ndarray   # s, of the moves between them
-    condition: float
+    mean: np.ndarray    # rad
+    sine: np.ndarray    # rad, [HARMONICS, dof]
+    cosine: np.ndarray
+    period_s: float
+    condition: float = float("inf")
+
+    @property
+    def start(self) -> np.ndarray:
+        return self.mean + self.cosine.sum(axis=0)
 
 
 def scenario(arm: NominalArm, arm_file: str, seed: int) -> tuple[str, Motion]:
@@ -38,81 +48,107 @@ def scenario(arm: NominalArm, arm_file: str, seed: int) -> tuple[str, Motion]:
 
 
 def motion_of(arm: NominalArm, seed: int) -> Motion:
+    """The best of many, then better ones close by."""
     base, rng = base_of(arm), np.random.default_rng(seed)
     middle, half = (arm.position_min + arm.position_max) / 2, (arm.position_max - arm.position_min) / 2
     half = np.minimum(RANGE * half, WIDEST_rad)
+    period_s = float(np.clip(np.ceil(np.max(20.0 * half / (SPEED * arm.speed_limit))), SHORTEST_s, LONGEST_s))
 
-    def draw() -> np.ndarray:
-        for _ in range(1000):
-            pose = middle + half * rng.uniform(-1, 1, arm.dof)
-            if (np.abs(gains.gravity_torque(arm, pose[None])[0]) < TORQUE * arm.torque_limit).all():
-                return pose
-        raise UsageError(f"{arm.name}: in no pose of a thousand does the arm hold its weight with {100 * TORQUE:g} % of its torque limits")
+    def judged(mean: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> Motion:
+        return within_limits(arm, base, Motion(np.clip(mean, -0.5 * half, 0.5 * half), *at_rest(sine, cosine), period_s), middle, half)
 
-    best = judged(arm, base, np.array([draw() for _ in range(POSES)]))
+    drawn = lambda: (0.3 * half * rng.uniform(-1, 1, arm.dof), *rng.normal(size=(2, HARMONICS, arm.dof)))
+    found = [(parts, judged(*parts)) for parts in (drawn() for _ in range(STARTS))]
+    parts, best = min(found, key=lambda pair: pair[1].condition)
     for trial in range(TRIALS):
-        poses = best.poses.copy()
-        poses[trial % POSES] = draw()
-        tried = judged(arm, base, poses)
-        if tried.condition < best.condition:
-            best = tried
+        joint = trial % arm.dof
+        tried = tuple(part.copy() for part in parts)
+        tried[0][joint] += 0.15 * half[joint] * rng.normal()
+        for part in tried[1:]:
+            part[:, joint] += 0.4 * rng.normal(size=HARMONICS)
+        motion = judged(*tried)
+        if motion.condition < best.condition:
+            parts, best = tried, motion
     return best
 
 
-def judged(arm: NominalArm, base: Base, poses: np.ndarray) -> Motion:
-    """Moves as quick as the limits allow, and their condition number."""
-    lengths = np.abs(np.diff(poses, axis=0))
-    durations = np.maximum((PEAK_SPEED * lengths / (SPEED * arm.speed_limit)).max(axis=1), SHORTEST_s)
-    while True:
-        q, qd, qdd = sampled(poses, durations)
-        Y = inverse_dynamics(arm.chain, q, qd, qdd)
-        torque = Y @ arm.inertial + arm.rotor_inertia * qdd
-        over = (np.abs(torque) > 1.2 * TORQUE * arm.torque_limit).any(axis=1).reshape(len(durations), PER_MOVE).any(axis=1)
-        if not over.any() or (durations[over] > LONGEST_s).all():
-            break
-        durations[over & (durations <= LONGEST_s)] *= 1.2
-    friction = [part[:, :, None] * np.eye(arm.dof) for part in (qd, np.sign(qd))]
-    W = np.concatenate([Y, *friction], axis=2)[:, :, base.columns] / np.minimum(arm.torque_limit, 1e6)[:, None]
-    return Motion(poses, np.ceil(20 * durations) / 20, condition_of(W.reshape(-1, W.shape[2])))
+def at_rest(sine: np.ndarray, cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Without the parts that would start at a speed or with an acceleration. Higher harmonics are smaller by their number."""
+    k = np.arange(1, HARMONICS + 1)
+    return (without(k, sine / k[:, None]), without(k * k, cosine / k[:, None]))
 
 
-def sampled(poses: np.ndarray, durations: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Minimum-jerk moves, PER_MOVE samples each."""
-    x = (np.arange(PER_MOVE) + 0.5)[None, :, None] / PER_MOVE
-    start, by, T = poses[:-1, None], np.diff(poses, axis=0)[:, None], durations[:, None, None]
-    q = start + by * x**3 * (10 - 15 * x + 6 * x * x)
-    qd = by * 30 * x * x * (1 - x) ** 2 / T
-    qdd = by * 60 * x * (1 - 3 * x + 2 * x * x) / T**2
-    return tuple(part.reshape(-1, poses.shape[1]) for part in (q, qd, qdd))
+def without(row: np.ndarray, x: np.ndarray) -> np.ndarray:
+    return x - np.outer(row, row @ x) / (row @ row)
+
+
+def within_limits(arm: NominalArm, base: Base, shape: Motion, middle: np.ndarray, half: np.ndarray) -> Motion:
+    """The shape as large as angles, speeds and torques allow, and its condition number; `shape.mean` is from the middle."""
+    flat = Motion(0 * middle, shape.sine, shape.cosine, shape.period_s)
+    q, qd, _ = sampled(flat, FEW)
+    size = np.minimum((half - np.abs(shape.mean)) / np.abs(q).max(axis=0), SPEED * arm.speed_limit / np.abs(qd).max(axis=0))
+    share = 1.0
+    while share > LEAST_SIZE:
+        motion = Motion(middle + share * shape.mean, share * size * shape.sine, share * size * shape.cosine, shape.period_s)
+        q, qd, qdd = sampled(motion, FEW)
+        torque = inverse_dynamics(arm.chain, q, qd, qdd) @ arm.inertial + arm.rotor_inertia * qdd
+        if (np.abs(torque) < TORQUE * arm.torque_limit).all():
+            motion.condition = condition(arm, base, motion)
+            return motion
+        share *= SHRINK
+    return motion
+
+
+def condition(arm: NominalArm, base: Base, motion: Motion) -> float:
+    q, qd, qdd = sampled(motion, MANY)
+    Y = np.concatenate([inverse_dynamics(arm.chain, q, qd, qdd), diagonal(qd), diagonal(np.sign(qd))], axis=2)
+    W = Y[:, :, base.columns] / np.minimum(arm.torque_limit, 1e6)[:, None]
+    return condition_of(W.reshape(-1, W.shape[2]))
+
+
+def sampled(motion: Motion, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Angles, speeds and accelerations over a period."""
+    w = 2 * np.pi / motion.period_s * np.arange(1, HARMONICS + 1)
+    turn = np.outer((np.arange(count) + 0.5) * motion.period_s / count, w)
+    S, C = np.sin(turn), np.cos(turn)
+    return (motion.mean + S @ motion.sine + C @ motion.cosine, (C * w) @ motion.sine - (S * w) @ motion.cosine,
+            -(S * w * w) @ motion.sine - (C * w * w) @ motion.cosine)
 
 
 def scenario_text(arm: NominalArm, arm_file: str, motion: Motion, seed: int) -> str:
     """That runs at once."""
-    legs = "".join(f'[[reference.legs]]\nkind = "joint"\nduration_s = {duration:g}\nto_rad = {in_line(pose)}\n'
-                   for pose, duration in zip(motion.poses[1:], motion.durations))
-
     def text(chosen: gains.Gains) -> str:
-        return f"""# Moves that tell the parameters of {arm.name} apart, for `tools/reed identify`.
+        return f"""# A motion that tells the parameters of {arm.name} apart, for `tools/reed identify`.
 # Condition number of the regressor: {motion.condition:.1f}. The surroundings of the arm are not known here: clear them.
 arm = "{arm_file}"
 
 [scenario]
 name = "excite_{arm.name}"
-description = "Moves between {len(motion.poses)} poses, condition number {motion.condition:.1f}."
-duration_s = {motion.durations.sum() + 0.5:g}
+description = "A Fourier series of {HARMONICS} harmonics per joint, condition number {motion.condition:.1f}."
+duration_s = {motion.period_s + 0.5:g}
 seed = {seed}
 
 [reference]
-start_rad = {in_line(motion.poses[0])}
-{legs}{plant(arm)}
+start_rad = {in_line(motion.start)}
+[[reference.legs]]
+kind = "fourier"
+duration_s = {motion.period_s:g}
+frequency_hz = {1 / motion.period_s:.9g}
+sine_rad = [{rows(motion.sine)}]
+cosine_rad = [{rows(motion.cosine)}]
+{plant(arm)}
 {chosen.lines()}
 [[checks]]
 name = "faults"
 limit = 0
 """
 
-    return gains.accepted(gains.by_rule(arm, motion.poses[0]), text)
+    return gains.accepted(gains.by_rule(arm, motion.start), text)
+
+
+def rows(values: np.ndarray) -> str:
+    return "".join(f"\n  {in_line(row)}," for row in values) + "\n"
 
 
 def in_line(values: np.ndarray) -> str:
-    return f"[{', '.join(f'{value:.4f}' for value in values)}]"
+    return f"[{', '.join(f'{value:.7f}' for value in values)}]"
