@@ -17,7 +17,7 @@ class Lister {
   void Number(const char* key, double value, Bound bound, const char* doc) {
     Row(key, ToText(bound), ToText(value), doc);
   }
-  void Integer(const char* key, int value, Bound bound, const char* doc) {
+  void Integer(const char* key, std::int64_t value, Bound bound, const char* doc) {
     Row(key, ToText(bound), std::to_string(value), doc);
   }
   void Seed(const char* key, std::int64_t value, const char* doc) {

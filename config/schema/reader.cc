@@ -43,12 +43,18 @@ void Reader::Number(const char* key, double& value, Bound bound, const char*) {
   if (const toml::node* node = Get(key)) value = CheckedNumber(*node, key, bound);
 }
 
-void Reader::Integer(const char* key, int& value, Bound bound, const char*) {
+void Reader::Integer(const char* key, int& value, Bound bound, const char* doc) {
+  std::int64_t whole = value;
+  Integer(key, whole, bound, doc);
+  value = static_cast<int>(whole);
+}
+
+void Reader::Integer(const char* key, std::int64_t& value, Bound bound, const char*) {
   const toml::node* node = Get(key);
   if (node == nullptr) return;
   const double number = CheckedNumber(*node, key, bound);
   if (number != std::floor(number)) Fail(key, "expected a whole number; allowed: " + ToText(bound));
-  value = static_cast<int>(number);
+  value = static_cast<std::int64_t>(number);
 }
 
 void Reader::Seed(const char* key, std::int64_t& value, const char*) {

@@ -20,6 +20,7 @@ class Reader {
 
   void Number(const char* key, double& value, Bound bound, const char* doc);
   void Integer(const char* key, int& value, Bound bound, const char* doc);
+  void Integer(const char* key, std::int64_t& value, Bound bound, const char* doc);
   void Seed(const char* key, std::int64_t& value, const char* doc);
   void Boolean(const char* key, bool& value, const char* doc);
   void Text(const char* key, std::string& value, const char* doc);

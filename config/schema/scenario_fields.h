@@ -244,6 +244,9 @@ void Fields(V& v, TimingConfig& c) {
   v.Integer("priority", c.priority, {"1", 1, 98}, "SCHED_FIFO priority of the loop");
   v.Integer("cpu", c.cpu, {"1", -1, 1023}, "core of the loop; -1: the last one it may use, in lockstep any");
   v.Integer("plant_cpu", c.plant_cpu, {"1", -1, 1023}, "core of the plant in realtime; -1: that of the loop");
+  v.Integer("first_cycle", c.first_cycle, {"1", 0, 4294967295.0},
+            "number of the first SYNC; a frame carries its lower 32 bits, which start over after 49 days at "
+            "1 kHz");
 }
 
 template <typename V>
@@ -257,7 +260,8 @@ void Fields(V& v, FaultConfig& c) {
   v.Number("size", c.size, {"unit of the kind", -1e6, 1e6}, "how much; 0: the kind's usual size");
   v.Number("from_s", c.from_s, {"s", -1, 3600},
            "starts at this time after the drives were enabled; -1: not by time");
-  v.Integer("from_cycle", c.from_cycle, {"1", -1, 2000000000}, "or in this cycle; -1: not by number");
+  v.Integer("from_cycle", c.from_cycle, {"1", -1, 2000000000},
+            "or in this cycle of the run, counted from 0; -1: not by number");
   v.Text("from_mode", c.from_mode, "or when the drives are off, ready, enabled, braked or in fault");
   v.Text("from_event", c.from_event,
          "or at contact_made, contact_lost, brakes_released, brakes_closed, or when the fault with this id "
@@ -293,7 +297,7 @@ template <typename V>
 void ScenarioFields(V& v, Scenario& c) {
   v.Text("name", c.name, "of the scenario; absent: the file's name");
   v.Text("description", c.description, "one sentence");
-  v.Number("duration_s", c.duration_s, {"s", 0.01, 3600}, "from the moment the arm is active");
+  v.Number("duration_s", c.duration_s, {"s", 0.01, 1e6}, "from the moment the arm is active");
   v.Seed("seed", c.seed, "of every random number in the run");
   v.Boolean("allow_wire_overload", c.allow_wire_overload,
             "run a schedule that a 1/5 Mbit/s wire could not carry");

@@ -28,7 +28,9 @@ class Writer {
   explicit Writer(toml::table& table) : table_(table) {}
 
   void Number(const char* key, double value, Bound, const char*) { table_.insert_or_assign(key, value); }
-  void Integer(const char* key, int value, Bound, const char*) { table_.insert_or_assign(key, value); }
+  void Integer(const char* key, std::int64_t value, Bound, const char*) {
+    table_.insert_or_assign(key, value);
+  }
   void Seed(const char* key, std::int64_t value, const char*) { table_.insert_or_assign(key, value); }
   void Boolean(const char* key, bool value, const char*) { table_.insert_or_assign(key, value); }
   void Text(const char* key, const std::string& value, const char*) { table_.insert_or_assign(key, value); }

@@ -32,8 +32,9 @@ class RoomInRing {
 template <rt::Clock Clock>
 class LockstepLoop {
  public:
-  LockstepLoop(Clock& clock, CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept
-      : clock_(clock), ring_(ring), stepper_(cycle, ring) {}
+  LockstepLoop(Clock& clock, std::int64_t first_cycle, CycleBase& cycle,
+               telemetry::SnapshotRing& ring) noexcept
+      : clock_(clock), ring_(ring), stepper_(first_cycle, cycle, ring) {}
 
   LoopResult Run(const std::atomic<bool>& stop) noexcept {
     const rt::Instant begin = rt::ReadInstant(clock_);

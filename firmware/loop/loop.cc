@@ -17,10 +17,10 @@ LoopResult RunOnPausingHost(const LoopOptions& options, CycleBase& cycle, teleme
   return RealtimeLoop(clock, options, cycle, ring).Run(stop);
 }
 
-LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
+LoopResult RunLockstep(std::int64_t first_cycle, CycleBase& cycle, telemetry::SnapshotRing& ring,
                        const std::atomic<bool>& stop) noexcept {
   rt::MonotonicClock clock;
-  return LockstepLoop(clock, cycle, ring).Run(stop);
+  return LockstepLoop(clock, first_cycle, cycle, ring).Run(stop);
 }
 
 }  // namespace reed

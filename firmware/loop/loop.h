@@ -17,6 +17,7 @@ struct LoopOptions {
   rt::PhaseLimits phases{{400'000, 300'000, 300'000}};
   rt::OverrunPolicy overrun = rt::OverrunPolicy::kKeepGrid;
   int max_missed_in_row = 19;
+  std::int64_t first_cycle = 0;  // number of the first SYNC, of which a frame carries the lower 32 bits
 };
 
 struct LoopResult {
@@ -36,7 +37,7 @@ LoopResult RunOnPausingHost(const LoopOptions& options, CycleBase& cycle, teleme
 
 /// Clock `lockstep`: the next cycle starts when this one is done. No deadlines, no budgets, nothing missed,
 /// and no snapshot lost: a full ring is waited for, but not for ever once the run shall stop. RT: safe.
-LoopResult RunLockstep(CycleBase& cycle, telemetry::SnapshotRing& ring,
+LoopResult RunLockstep(std::int64_t first_cycle, CycleBase& cycle, telemetry::SnapshotRing& ring,
                        const std::atomic<bool>& stop) noexcept;
 
 }  // namespace reed

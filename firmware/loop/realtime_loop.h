@@ -16,7 +16,7 @@ class RealtimeLoop {
       : clock_(clock),
         options_(options),
         period_ns_(rt::PeriodNs(options.rate_hz)),
-        stepper_(cycle, ring),
+        stepper_(options.first_cycle, cycle, ring),
         phases_(options.phases) {}
 
   LoopResult Run(const std::atomic<bool>& stop) noexcept {

@@ -13,7 +13,8 @@ inline constexpr std::int64_t kPatience_ns = 2'000'000'000;
 /// One cycle with its snapshot; a full ring drops the snapshot and never delays the cycle.
 class Stepper {
  public:
-  Stepper(CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept : cycle_(cycle), ring_(ring) {}
+  Stepper(std::int64_t first_cycle, CycleBase& cycle, telemetry::SnapshotRing& ring) noexcept
+      : first_cycle_(first_cycle), cycle_(cycle), ring_(ring) {}
 
   /// Runs one cycle, which is due at `point` and begins at `start`. The loop may write to its snapshot until
   /// Close().
@@ -23,13 +24,12 @@ class Stepper {
     if (slot_ == nullptr) ++result.dropped;
     telemetry::Snapshot& now = snapshot();
     now.ClearLists();
-    now.cycle = result.cycles;
+    now.cycle = first_cycle_ + result.cycles;
     now.time_ns = start.now_ns;
     now.timing = {};
     now.timing.wake_ns = rt::ShortNs(start.now_ns - point.now_ns);
     NoteLoop(point, start, state, now.loop);
-    const CycleStatus status =
-        cycle_.Run(static_cast<std::uint32_t>(result.cycles), rx_deadline_ns, state, now);
+    const CycleStatus status = cycle_.Run(static_cast<std::uint32_t>(now.cycle), rx_deadline_ns, state, now);
     now.loop.bus_alive = status != CycleStatus::kBusLost;
     ++result.cycles;
     return status;
@@ -85,6 +85,7 @@ class Stepper {
     out.degrade = state.degrade;
   }
 
+  std::int64_t first_cycle_;
   CycleBase& cycle_;
   telemetry::SnapshotRing& ring_;
   telemetry::Snapshot* slot_ = nullptr;

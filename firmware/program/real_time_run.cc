@@ -25,7 +25,7 @@ void RunCounted(const ControlOptions& options, const LoopOptions& loop, const rt
   const rt::Usage before = rt::ThreadUsage();
   const rt::HeapCount heap;
   // ---- real time: from here to the next line nothing allocates, locks, throws or prints ----
-  run.result = !realtime          ? RunLockstep(cycle, ring, stop)
+  run.result = !realtime          ? RunLockstep(loop.first_cycle, cycle, ring, stop)
                : watch == nullptr ? RunRealtime(loop, cycle, ring, stop)
                                   : RunOnPausingHost(loop, cycle, ring, stop, *watch);
   // ---- real time ends ----

@@ -38,7 +38,7 @@ int Run(const ReplayOptions& options) {
 
   tape::TapeWriter out(options.out, reader.header());
   telemetry::SnapshotRing ring(4);
-  Player player(reader, ring, out);
+  Player player(reader, loop.first_cycle, ring, out);
   TapeClock clock(player);
   bus::ReedControllerCodec codec;
   TapeTransport bus(player, codec);
@@ -47,7 +47,7 @@ int Run(const ReplayOptions& options) {
   TapedCycle taped(*cycle, player, bus);
 
   if (reader.header().clock == "lockstep")
-    LockstepLoop(clock, taped, ring).Run(player.stop());
+    LockstepLoop(clock, loop.first_cycle, taped, ring).Run(player.stop());
   else
     RealtimeLoop(clock, loop, taped, ring).Run(player.stop());
   player.Drain();

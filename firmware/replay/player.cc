@@ -7,10 +7,11 @@
 
 namespace reed {
 
-Player::Player(tape::TapeReader& tape, telemetry::SnapshotRing& ring, tape::TapeWriter& out)
-    : tape_(tape), ring_(ring), out_(out) {
+Player::Player(tape::TapeReader& tape, std::int64_t first_cycle, telemetry::SnapshotRing& ring,
+               tape::TapeWriter& out)
+    : tape_(tape), first_cycle_(first_cycle), ring_(ring), out_(out) {
   more_ = tape_.Next(ahead_);
-  if (!more_ || ahead_.cycle != 0 || ahead_.frames_omitted > 0)
+  if (!more_ || ahead_.cycle != first_cycle_ || ahead_.frames_omitted > 0)
     throw std::runtime_error(
         "its first cycle is missing or not whole: without it the controller's state is not known");
 }
@@ -48,7 +49,7 @@ rt::Instant Player::Next() noexcept {
 
 void Player::Drain() {
   for (const telemetry::Snapshot* one = ring_.Front(); one != nullptr; one = ring_.Front()) {
-    if (one->cycle < cycles_) out_.Write(*one);
+    if (one->cycle < first_cycle_ + cycles_) out_.Write(*one);
     ring_.PopFront();
   }
 }

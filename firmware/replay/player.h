@@ -20,7 +20,8 @@ namespace reed {
 class Player {
  public:
   /// @throws std::runtime_error when not even the first cycle can be replayed
-  Player(tape::TapeReader& tape, telemetry::SnapshotRing& ring, tape::TapeWriter& out);
+  Player(tape::TapeReader& tape, std::int64_t first_cycle, telemetry::SnapshotRing& ring,
+         tape::TapeWriter& out);
 
   /// The next reading of the clock: begin, then start and end of every cycle.
   rt::Instant Next() noexcept;
@@ -40,6 +41,7 @@ class Player {
   void Load() noexcept;
 
   tape::TapeReader& tape_;
+  std::int64_t first_cycle_;
   telemetry::SnapshotRing& ring_;
   tape::TapeWriter& out_;
   telemetry::Snapshot now_, ahead_;

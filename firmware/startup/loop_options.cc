@@ -19,6 +19,7 @@ LoopOptions LoopOptionsFrom(const TimingConfig& timing) {
   options.phases.max_in_row = timing.max_broken_in_row;
   options.overrun = static_cast<rt::OverrunPolicy>(timing.overrun);
   options.max_missed_in_row = timing.max_missed_in_row;
+  options.first_cycle = timing.first_cycle;
   return options;
 }
 

@@ -23,7 +23,8 @@ Endpoint::Endpoint(const PlantConfig& config, bus::Transport& transport, ArmBody
       faults_(Injector::For(config, body, transport)),
       journal_(recorder),
       robot_(config, faults_ ? faults_->body() : body, journal_),
-      port_(faults_ ? faults_->transport() : transport, std::move(codec)) {}
+      port_(faults_ ? faults_->transport() : transport, std::move(codec)),
+      first_cycle_(config.timing.first_cycle) {}
 
 bool Endpoint::Poll(std::int64_t deadline_ns) {
   const auto incoming = port_.Receive(deadline_ns);
@@ -75,7 +76,8 @@ void Endpoint::Sample(std::uint32_t cycle, const HostPauses& host) {
 }
 
 void Endpoint::Disturb(Measurement& measurement) noexcept {
-  faults_->Step(count_, robot_.time_s(), robot_.enabled_for_s(), robot_.drives().state(), measurement);
+  faults_->Step(count_ - first_cycle_, robot_.time_s(), robot_.enabled_for_s(), robot_.drives().state(),
+                measurement);
   for (const FaultChange& change : faults_->TakeChanges())
     journal_.Note(change.begins ? PlantEvent::kFaultBegins : PlantEvent::kFaultEnds, robot_.drives().state(),
                   static_cast<double>(change.fault), "fault %s %s: %s of %s at %.3f s", change.id,

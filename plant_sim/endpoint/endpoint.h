@@ -67,7 +67,8 @@ class Endpoint {
   std::string failure_;
   bool told_of_another_arm_ = false;
   std::int64_t syncs_ = 0;
-  std::int64_t count_ = 0;  // number of the last SYNC
+  std::int64_t first_cycle_;  // of the run
+  std::int64_t count_ = 0;    // number of the last SYNC
   std::uint64_t refused_commands_ = 0;
 };
 

@@ -41,7 +41,7 @@ class Injector {
 
   /// As after power-up.
   void Reset();
-  /// Of one cycle: decides which faults act from here on, and changes what the sensors say.
+  /// Of one cycle, counted from the run's first: decides which faults act from here on, and changes what the sensors say.
   void Step(std::int64_t cycle, double time_s, double enabled_for_s, bus::DriveState drives,
             Measurement& m) noexcept;
   /// Since they were last asked for; valid until the next Step.

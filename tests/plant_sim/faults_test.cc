@@ -41,13 +41,14 @@ class Faulty : public Lockstep {
     FakeController controller(wire_.controller);
     Start(config);
     Course course;
+    const auto first = static_cast<std::uint32_t>(config.timing.first_cycle);
     for (std::uint32_t k = 0; k < kCycles; ++k) {
       const double tau_Nm = kTau_Nm * (k % 7 < 4 ? 1.0 : -0.5);
-      controller.Sync(k);
+      controller.Sync(first + k);
       endpoint_->Poll(0);
       const std::vector<bus::Frame> frames = wire_.controller.inbox();
       wire_.controller.inbox().clear();
-      controller.Command(k, k == 0 ? DriveRequest::kReady : DriveRequest::kEnable, tau_Nm);
+      controller.Command(first + k, k == 0 ? DriveRequest::kReady : DriveRequest::kEnable, tau_Nm);
       endpoint_->Poll(0);
       std::vector<double> row{static_cast<double>(frames.size()), body_.brakes};
       for (const bus::Frame& frame : frames) {
@@ -111,6 +112,18 @@ TEST_F(Faulty, AWindowHasItsFirstAndLastCycle) {
   EXPECT_EQ(lost, (std::vector<std::size_t>{12, 13, 14, 15, 16})) << "enabled at 2T";
   EXPECT_EQ(recorder_.Count(PlantEvent::kFaultBegins), 1);
   EXPECT_EQ(recorder_.Count(PlantEvent::kFaultEnds), 1);
+}
+
+TEST_F(Faulty, ACycleIsCountedFromTheRunsFirstOne) {
+  PlantConfig plain = Moving({FaultOf("joint1.drive", "torque_offset")}), crossing = plain;
+  crossing.timing.first_cycle = 0x1'0000'0000 - 32;  // its lower bits in the answers are the same
+  const auto angles = [](const Course& course) {
+    std::vector<double> found;
+    for (const std::vector<double>& row : course) found.push_back(row[row.size() - 2]);
+    return found;
+  };
+  EXPECT_EQ(angles(CourseOf(crossing)), angles(CourseOf(plain)));
+  EXPECT_NE(angles(CourseOf(plain)), angles(CourseOf(Moving())));
 }
 
 TEST_F(Faulty, AWindowEndsAlsoWhereNoSyncReachesTheArm) {

@@ -259,7 +259,7 @@ TEST(LockstepLoop, ARingThatNobodyEmptiesDoesNotKeepARunThatShallStop) {
   test::FakeCycle cycle(clock, 100);
   telemetry::SnapshotRing ring(4);
   const std::atomic<bool> stop{true};
-  const LoopResult result = RunLockstep(cycle, ring, stop);
+  const LoopResult result = RunLockstep(0, cycle, ring, stop);
   EXPECT_EQ(result.cycles, 100);
   EXPECT_EQ(result.dropped, 96);
   EXPECT_LT(result.wall_s, 30.0) << "the patience is for the whole run";

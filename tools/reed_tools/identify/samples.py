@@ -66,6 +66,11 @@ def arm_of_run(folder: Path) -> dict:
     return table_of(folder, "arm")
 
 
+def following(last: int, now: int) -> int:
+    """The number that a SYNC's 32 bits stand for: the nearest one to the last, so that it goes on where the bits start over."""
+    return last + (now - last + 2**31) % 2**32 - 2**31
+
+
 def of_candump(path: Path, dof: int) -> list[Stretch]:
     """From frames alone: a cycle is what follows a SYNC, its time step the one that most SYNCs keep."""
     from reed_tools.export import decode  # python-can and cantools: not before they are needed
@@ -77,7 +82,7 @@ def of_candump(path: Path, dof: int) -> list[Stretch]:
             continue
         if said["message"] == "SYNC":
             now = said["signals"]["cycle"]
-            cycle.append(now)
+            cycle.append(following(cycle[-1], now) if cycle else now)
             times.append(said["t_s"])
             rows.append({})
         elif now is not None and said["message"].startswith("JOINT_STATE_") and said["signals"]["cycle_low4"] == now % 16:

@@ -1,6 +1,7 @@
 """A tape (docs/replay.md): what the controller saw and did, cycle by cycle, as arrays by name. Read up to its last whole record."""
 
 import struct
+import tomllib
 import zlib
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -53,6 +54,14 @@ class Header:
     @property
     def joints(self) -> int:
         return int(self.values["joints"])
+
+    @property
+    def first_cycle(self) -> int:
+        """Number of the run's first cycle; tapes of older programs begin at 0."""
+        try:
+            return int(tomllib.loads(self.config).get("timing", {}).get("first_cycle", 0))
+        except (ValueError, TypeError, AttributeError):  # what is wrong with it is said by who reads it
+            return 0
 
     @property
     def commit(self) -> str:
@@ -118,7 +127,7 @@ class Tape:
     def usable(self) -> int:
         """Cycles from the first one on without a hole: as many can be replayed."""
         numbers = self["cycle"]
-        whole = (numbers == np.arange(len(numbers))) & (self["frames_omitted"] == 0)
+        whole = (numbers == self.header.first_cycle + np.arange(len(numbers))) & (self["frames_omitted"] == 0)
         return int(np.argmin(whole)) if not whole.all() else len(numbers)
 
 

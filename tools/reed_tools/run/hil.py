@@ -43,6 +43,7 @@ class Plan:
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
     entries: list[str] = field(default_factory=list)  # KEY=VALUE, over what the configuration says
+    first_cycle: int = 0  # its number
     host_pause: bool = False  # a bench whose host may pause: the controller's watch measures it
 
     @property
@@ -221,7 +222,7 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
             return
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
-            cycle = state[0]
+            cycle = state[0] - plan.first_cycle
             tell_progress(tail, state, on_progress)
             if cycle > plan.most_cycles:
                 outcome.stopped_because = f"the scenario was not done after {cycle} cycles"

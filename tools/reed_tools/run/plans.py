@@ -20,4 +20,4 @@ def make(effective: dict, config: Path | str, bus: str, clock: str, folder: Path
     entries, law, environment."""
     most_cycles = int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
     programs = {part: str(program(name)) for part, name in names(bus).items()}
-    return hil.Plan(programs, str(config), bus, clock, str(folder), most_cycles, **options)
+    return hil.Plan(programs, str(config), bus, clock, str(folder), most_cycles, first_cycle=effective["timing"].get("first_cycle", 0), **options)
