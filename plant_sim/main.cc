@@ -14,11 +14,12 @@
 #include "options.h"
 #include "reed/bus/codec/reed_codec.h"
 #include "reed/bus/transport/open_transport.h"
+#include "reed/config/description/config_error.h"
 #include "reed/config/description/cores.h"
 #include "reed/config/plant/load_plant_config.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
-#include "reed/plant/endpoint/lockstep_endpoint.h"
 #include "reed/plant/endpoint/realtime_endpoint.h"
+#include "reed/plant/link/timed_endpoint.h"
 #include "reed/plant/process/realtime_wish.h"
 #include "reed/plant/process/second_arm.h"
 #include "reed/plant/program/conclusion.h"
@@ -40,8 +41,10 @@ std::unique_ptr<Endpoint> MakeEndpoint(const Options& options, const PlantConfig
                                        bus::Transport& transport, ArmBody& body, RecordSink& recorder,
                                        const rt::HostPauseWatch& watch) {
   if (options.clock == rt::ClockKind::kLockstep) {
-    return std::make_unique<LockstepEndpoint>(config, transport, body, recorder);
+    return MakeLockstepEndpoint(config, transport, body, recorder);
   }
+  if (config.link.active())
+    throw ConfigError("link: a bus by the clock has its own times; allowed: --clock lockstep, or no link");
   EndpointClock clock = EndpointClock::System();
   clock.paused_ns = [&watch] { return watch.paused_ns(); };
   return std::make_unique<RealtimeEndpoint>(config, transport, body, recorder, clock);

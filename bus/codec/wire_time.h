@@ -36,6 +36,9 @@ double CycleTime_s(int joints, BitRates rates = {}) noexcept;
 /// Of these, what a receive phase waits for: SYNC, the states, WRENCH.
 double AnswerTime_s(int joints, BitRates rates = {}) noexcept;
 
+/// Share of the period that a receive phase has where more is not needed.
+inline constexpr double kReceiveShare = 0.4;
+
 /// Of these, COMMAND.
 double CommandTime_s(BitRates rates = {}) noexcept;
 

@@ -73,6 +73,26 @@ struct DisturbanceConfig {
   double step_s = -1.0;  // -1: no step
 };
 
+/// One direction of [link].
+struct PathConfig {
+  double delay_s = 0.0;
+  double jitter_s = 0.0;  // between 0 and this more, alike
+  double loss = 0.0;      // share of the frames
+
+  bool active() const { return delay_s > 0.0 || jitter_s > 0.0 || loss > 0.0; }
+};
+
+/// [link] what lies between controller and arm, in virtual time.
+struct LinkConfig {
+  bool wire_time = false;        // a frame arrives when a 1/5 Mbit/s CAN FD wire would have it
+  double foreign_load = 0.0;     // share of that wire that others take
+  int foreign_id = -1;           // their identifier; -1: any
+  double controller_s = 100e-6;  // from the last answer's arrival to the command's sending
+  PathConfig command, measurement;
+
+  bool active() const { return wire_time || command.active() || measurement.active(); }
+};
+
 struct PlantConfig {
   std::int64_t seed = 1;
   TrueArm arm;
@@ -84,6 +104,7 @@ struct PlantConfig {
   std::vector<double> start_rad;  // motor-side joint angles at t = 0
   TimingConfig timing;
   std::vector<FaultConfig> faults;
+  LinkConfig link;
 };
 
 }  // namespace reed

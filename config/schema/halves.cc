@@ -50,7 +50,7 @@ ControllerConfig ControllerHalf(const Scenario& s) {
 
 PlantConfig PlantHalf(const Scenario& s) {
   PlantConfig half{s.seed,        TrueOf(s.arm),         s.plant,  s.drives, s.sensors, s.wall,
-                   s.disturbance, s.reference.start_rad, s.timing, s.faults};
+                   s.disturbance, s.reference.start_rad, s.timing, s.faults, s.link};
   half.plant.p_true.clear();  // the arm has them
   return half;
 }

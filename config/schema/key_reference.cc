@@ -86,6 +86,7 @@ std::string KeyReference() {
   List<SensorConfig>(out, "sensors");
   List<WallConfig>(out, "wall");
   List<DisturbanceConfig>(out, "disturbance");
+  List<LinkConfig>(out, "link");
   List<ReferenceConfig>(out, "reference");
   List<ReferenceLeg>(out, "reference.legs[]");
   List<ForceConfig>(out, "force");

@@ -41,6 +41,13 @@ class PlantRules : public RuleContext {
       Fail("disturbance.step_N", "does nothing without disturbance.step_s");
   }
 
+  void LinkDoesSomething() const {
+    const LinkConfig& c = s_.link;
+    if (c.wire_time) return;
+    if (c.foreign_load > 0.0) Fail("link.foreign_load", "does nothing without link.wire_time");
+    if (c.foreign_id >= 0) Fail("link.foreign_id", "does nothing without link.wire_time");
+  }
+
   void ExcitationDoesSomething() const {
     const DriveConfig& c = s_.drives;
     const bool joint = c.excitation_joint > 0, torque = c.excitation_Nm > 0.0,
@@ -266,6 +273,7 @@ void CheckPlausiblePlant(const Document& doc, const Scenario& scenario) {
   const PlantRules rules(doc, scenario);
   rules.LossEndsAfterItsStart();
   rules.DisturbanceDoesSomething();
+  rules.LinkDoesSomething();
   rules.ExcitationDoesSomething();
 }
 

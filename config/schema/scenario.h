@@ -30,6 +30,7 @@ struct Scenario {
   SensorConfig sensors;
   WallConfig wall;
   DisturbanceConfig disturbance;
+  LinkConfig link;
   ReferenceConfig reference;
   ForceConfig force;
   ControlConfig control;

@@ -120,6 +120,29 @@ void Fields(V& v, DisturbanceConfig& c) {
 }
 
 template <typename V>
+void Fields(V& v, LinkConfig& c) {
+  v.Boolean("wire_time", c.wire_time,
+            "frames arrive when a 1/5 Mbit/s CAN FD wire would have them: arbitration by identifier, the "
+            "stuff bits of "
+            "their content. Only in lockstep, as all of [link]");
+  v.Number("foreign_load", c.foreign_load, {"1", 0, 0.95}, "share of that wire that others' frames take");
+  v.Integer("foreign_id", c.foreign_id, {"1", -1, 2047},
+            "their identifier, a smaller one wins the arbitration; -1: any, from the seed");
+  v.Number("controller_s", c.controller_s, {"s", 0, 0.02},
+           "wire_time: from the last answer's arrival to the command's sending");
+  v.Number(
+      "command_delay_s", c.command.delay_s, {"s", 0, 0.1},
+      "commands arrive so much later: than on the wire, or, without wire_time, than lockstep's one period");
+  v.Number("command_jitter_s", c.command.jitter_s, {"s", 0, 0.1},
+           "and up to this more, alike; their order is kept");
+  v.Number("command_loss", c.command.loss, {"1", 0, 1}, "share of the commands that do not arrive");
+  v.Number("measurement_delay_s", c.measurement.delay_s, {"s", 0, 0.1},
+           "states and wrench arrive so much later; behind the receive phase they count for a later cycle");
+  v.Number("measurement_jitter_s", c.measurement.jitter_s, {"s", 0, 0.1}, "and up to this more, alike");
+  v.Number("measurement_loss", c.measurement.loss, {"1", 0, 1}, "share of the frames that do not arrive");
+}
+
+template <typename V>
 void Fields(V& v, ReferenceConfig& c) {
   v.Numbers("start_rad", c.start_rad, {"rad", -6.3, 6.3},
             "motor-side joint angles at the start; needed, or start_tip_m");

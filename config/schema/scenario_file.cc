@@ -91,7 +91,7 @@ void ResolveArm(Document& doc, const std::string& wanted) {
 void RefuseUnknownSections(Document& doc) {
   const std::vector<std::string> sections{"scenario", "arm",         "plant",     "drives", "sensors",
                                           "wall",     "disturbance", "reference", "force",  "control",
-                                          "limits",   "timing",      "fault",     "checks"};
+                                          "limits",   "timing",      "link",      "fault",  "checks"};
   for (const auto& [key, node] : doc.root()) {
     if (std::find(sections.begin(), sections.end(), key.str()) != sections.end()) continue;
     const std::string word(key.str());
@@ -162,6 +162,7 @@ Scenario LoadScenario(const std::string& name_or_path, const LoadOptions& option
   ReadSection(doc, "sensors", s.sensors);
   ReadSection(doc, "wall", s.wall);
   ReadSection(doc, "disturbance", s.disturbance);
+  ReadSection(doc, "link", s.link);
   ReadReference(doc, s.reference);
   ReadSection(doc, "force", s.force);
   ReadSection(doc, "control", s.control);

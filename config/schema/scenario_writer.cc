@@ -49,6 +49,7 @@ void WriteSimulation(const Half& half, toml::table& root) {
   root.insert("sensors", Table(half.sensors));
   root.insert("wall", Table(half.wall));
   root.insert("disturbance", Table(half.disturbance));
+  root.insert("link", Table(half.link));
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ void RefuseWireOverload(const ControllerConfig& scenario) {
 }
 
 TimingConfig WithBudgets(const ControllerConfig& scenario) {
-  constexpr double kReceiveShare = 0.4;
   const int joints = scenario.arm.dof();
   const bool no_wire = scenario.allow_wire_overload;
   const double answers_us = no_wire ? 0.0 : 1e6 * bus::AnswerTime_s(joints);
@@ -39,7 +38,7 @@ TimingConfig WithBudgets(const ControllerConfig& scenario) {
   TimingConfig timing = scenario.timing;
   const double period_us = 1e6 / timing.rate_hz;
   const bool free_compute = timing.compute_budget_us == 0.0, free_tx = timing.tx_budget_us == 0.0;
-  if (timing.rx_budget_us == 0.0) timing.rx_budget_us = std::max(kReceiveShare * period_us, answers_us);
+  if (timing.rx_budget_us == 0.0) timing.rx_budget_us = std::max(bus::kReceiveShare * period_us, answers_us);
   const double left_us = period_us - timing.rx_budget_us - timing.compute_budget_us - timing.tx_budget_us;
   const double share_us = free_compute && free_tx ? 0.5 * left_us : left_us;
   if ((free_compute || free_tx) && share_us < 1.0)

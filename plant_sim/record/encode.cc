@@ -32,6 +32,16 @@ void Fill(const ShapeRecord& r, shape_t& m) {
   copy(r.rigid[0], m.rigid_x), copy(r.rigid[1], m.rigid_y), copy(r.rigid[2], m.rigid_z);
 }
 
+void Fill(const WireRecord& r, wire_t& m) {
+  m.utime = r.utime;
+  m.cycle = r.cycle;
+  m.answers_us = r.answers_us;
+  m.command_us = r.command_us;
+  m.foreign_s = r.foreign_s;
+  m.computed_answers_us = r.computed_answers_us;
+  m.computed_command_us = r.computed_command_us;
+}
+
 }  // namespace
 
 Message MessageEncoder::Encode(const Record& record) {
@@ -42,6 +52,10 @@ Message MessageEncoder::Encode(const Record& record) {
   if (const auto* shape = std::get_if<ShapeRecord>(&record)) {
     Fill(*shape, shape_);
     return Pack(kShapeChannel, shape_);
+  }
+  if (const auto* wire = std::get_if<WireRecord>(&record)) {
+    Fill(*wire, wire_);
+    return Pack(kWireChannel, wire_);
   }
   Fill(std::get<EventRecord>(record), event_);
   return Pack(kPlantEventChannel, event_);

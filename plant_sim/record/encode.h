@@ -5,6 +5,7 @@
 #include <reed/event_t.hpp>
 #include <reed/plant_t.hpp>
 #include <reed/shape_t.hpp>
+#include <reed/wire_t.hpp>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace reed::plant {
 inline constexpr const char* kPlantChannel = "REED_PLANT";
 inline constexpr const char* kPlantEventChannel = "REED_PLANT_EVENT";
 inline constexpr const char* kShapeChannel = "REED_SHAPE";
+inline constexpr const char* kWireChannel = "REED_WIRE";
 
 struct Message {
   const char* channel = nullptr;
@@ -33,6 +35,7 @@ class MessageEncoder {
   plant_t plant_;
   event_t event_;
   shape_t shape_;
+  wire_t wire_;
   std::vector<std::uint8_t> buffer_;
 };
 

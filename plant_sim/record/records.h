@@ -36,6 +36,15 @@ struct ShapeRecord {
   std::array<std::array<float, kMaxShapePoints>, 3> bent{}, rigid{};  // m, [axis][point]
 };
 
+/// Numbers, units: lcmtypes/wire_t.lcm.
+struct WireRecord {
+  std::int64_t utime = 0;
+  std::int64_t cycle = 0;
+  double answers_us = 0.0, command_us = 0.0;
+  double foreign_s = 0.0;
+  double computed_answers_us = 0.0, computed_command_us = 0.0;
+};
+
 /// Numbers of event_t.code on REED_PLANT_EVENT. Fixed for ever: logs outlive versions.
 enum class PlantEvent : std::int32_t {
   kControllerPresent = 200,
@@ -66,7 +75,7 @@ struct EventRecord {
   std::array<char, 240> text{};  // zero-terminated
 };
 
-using Record = std::variant<PlantRecord, EventRecord, ShapeRecord>;
+using Record = std::variant<PlantRecord, EventRecord, ShapeRecord, WireRecord>;
 static_assert(std::is_trivially_copyable_v<Record>);
 
 /// Where records go. RT: as safe as the implementation.

@@ -10,7 +10,7 @@ from reed_tools.campaign.draws import Record
 from reed_tools.errors import UsageError
 from reed_tools.run import hil, in_memory, scenario
 
-NOT_READ_BY_FIGURES = ("wall.", "plant.", "force.", "disturbance.", "sensors.", "drives.", "scenario.seed")
+NOT_READ_BY_FIGURES = ("wall.", "plant.", "force.", "disturbance.", "sensors.", "drives.", "link.", "scenario.seed")
 
 
 def known_to_figures(campaign: Campaign, entries: list[str]) -> dict:

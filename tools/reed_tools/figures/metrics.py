@@ -75,9 +75,12 @@ def timing_us(recording: Recording, clock: str) -> dict:
         if not len(values) or (name == "wake" and clock == "lockstep"):
             result[name] = None
             continue
-        result[name] = {key: round(float(np.percentile(values, q)), 3) for key, q in PERCENTILES.items()}
-        result[name]["max"] = round(float(values.max()), 3)
+        result[name] = percentiles(values)
     return result
+
+
+def percentiles(values: np.ndarray) -> dict[str, float]:
+    return {**{key: round(float(np.percentile(values, q)), 3) for key, q in PERCENTILES.items()}, "max": round(float(values.max()), 3)}
 
 
 def zero_cycle(recording: Recording) -> int:

@@ -34,6 +34,14 @@ def timing(summary: dict) -> Table:
     return table
 
 
+def wire_time(wire: dict | None) -> list[str]:
+    if wire is None:
+        return []
+    parts = [f"{what} after {number(wire[name]['max'], 4)} µs at most, median {number(wire[name]['p50'], 4)} (worst case computed "
+             f"{number(wire[name]['computed'], 4)})" for name, what in (("answers_us", "last answer"), ("command_us", "command"))]
+    return [f"wire   {'; '.join(parts)}; others' frames {number(wire['foreign_percent'], 3)} %"]
+
+
 LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware reports it at its end
 
 
@@ -46,6 +54,7 @@ def lines(summary: dict) -> list[str]:
         f"bus    {bus['kind']} {bus['interface']}: {number(bus['frames_rx'])} frames in, {number(bus['frames_tx'])} out, "
         f"{number(bus['lost'])} lost, {number(bus['crc_errors'])} CRC errors, {number(bus['repeated'])} repeated; "
         f"{wire} % of a 1/5 Mbit/s wire",
+        *wire_time(summary["wire_time"]),
         f"clock  {summary['clock']}, {summary['rate_hz']:g} Hz, {summary['cycles']} cycles, {number(summary['missed_cycles'])} missed, "
         f"{number(summary['overruns'])} overruns{speed}",
         *([f"host   {pause['count']} host pauses, {1e3 * pause['host_pause_s']:.0f} ms in all, {pause['missed_cycles']} of the missed cycles "

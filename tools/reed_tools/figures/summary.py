@@ -43,6 +43,7 @@ def build(folder: Path, recording: Recording) -> tuple[dict, Signals | None]:
         "cause": events.cause(reason, verdicts),
         "checks": verdicts,
         "bus": bus(recording),
+        "wire_time": wire_time(recording),
         **clock_figures(recording, rate_hz),
         "machine": origin["machine"] or {},
         "host_pause": host_pause(recording, clock),
@@ -75,6 +76,19 @@ def bus(recording: Recording) -> dict:
             **{name: getattr(counters, name) if counters else None for name in
                ("frames_rx", "frames_tx", "lost", "crc_errors", "repeated")},
             "wire_load_percent": round(run.wire_load_percent, 3) if run else None}
+
+
+def wire_time(recording: Recording) -> dict | None:
+    """When frames were through on the simulated wire, beside the schedule's worst case without others; None without link.wire_time."""
+    if not recording.has("REED_WIRE"):
+        return None
+    wire = recording.tables["REED_WIRE"]
+    lasted_s = 1e-6 * float(wire["utime"][-1] - wire["utime"][0])
+    if lasted_s <= 0:
+        return None
+    figures = {f"{name}_us": metrics.percentiles(wire[f"{name}_us"][1:]) | {"computed": round(float(wire[f"computed_{name}_us"][-1]), 3)}
+               for name in ("answers", "command")}  # a message is about the cycle before: the first one about none
+    return figures | {"foreign_percent": round(100 * float(wire["foreign_s"][-1] - wire["foreign_s"][0]) / lasted_s, 3)}
 
 
 def clock_figures(recording: Recording, rate_hz: float) -> dict:

@@ -16,7 +16,8 @@ from reed_tools.record.message_layout import decode_all, joined
 # Fixed order: it is part of the digest's definition.
 DIGEST_CHANNELS = ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")
 TABLES = {"REED_MEASURED": "measured_t", "REED_CONTROL": "control_t", "REED_ADAPTATION": "adaptation_t",
-          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t", "REED_LAW": "law_t"}
+          "REED_PLANT": "plant_t", "REED_TIMING": "timing_t", "REED_SHAPE": "shape_t", "REED_LAW": "law_t",
+          "REED_WIRE": "wire_t"}
 SINGLES = {"REED_RUN": "run_t", "REED_BUS": "bus_t", "REED_EVENT": "event_t", "REED_PLANT_EVENT": "event_t",
            "REED_HISTOGRAM": "histogram_t", "REED_LAW_NAMES": "law_names_t"}
 RESTORE = "restore it from a copy, or run again: `command` in the folder's run.json"
