@@ -17,6 +17,7 @@ COMMANDS = {
     "campaign": ("campaign.command", "many runs with drawn parameters, walls and seeds: distributions and worst cases"),
     "worst": ("worst.command", "the worst case of a campaign: searched for, reduced to what it needs, kept for the tests"),
     "faults": ("faults.command", "every fault in every phase of a scenario: what is noticed, how soon, and is the arm safe?"),
+    "map": ("map.command", "margin over delay, jitter and loss of commands and measurements, and over the rate"),
     "report": ("figures.command", "rebuild figures, plots and report of a run folder"),
     "compare": ("compare.command", "two or more runs, or campaigns, beside each other: differences first"),
     "live": ("live.command", "a page that shows a run as it happens, or a finished one"),
