@@ -8,7 +8,7 @@ for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
     if signal.getsignal(number) == signal.SIG_IGN:  # `nohup … &`: it stays so here, and what the tests start gets the usual
         signal.signal(number, lambda *_: None)
 
-FLIES = ("bus/", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
+FLIES = ("bus/", "endurance/test_kill.py", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
          "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_killed.py", "tools/test_live.py",
          "tools/test_report_page.py")
 
