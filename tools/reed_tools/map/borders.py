@@ -7,35 +7,40 @@ from reed_tools.map.measured import Mapped
 from reed_tools.show import tables
 
 
-def border(values: tuple[float, ...], good: np.ndarray) -> tuple[float | None, float | None]:
-    """(last value up to which all are good, first that is not): the border is between them."""
-    bad = np.flatnonzero(~good)
-    first = int(bad[0]) if len(bad) else len(values)
-    return values[first - 1] if first else None, values[first] if first < len(values) else None
+def border(good: np.ndarray) -> tuple[int, int] | None:
+    """(first, last) of the values that are good in a row from the first good one on; None: none is."""
+    found = np.flatnonzero(good)
+    if not len(found):
+        return None
+    bad = np.flatnonzero(~good[found[0]:])
+    return int(found[0]), int(found[0] + bad[0] - 1) if len(bad) else len(good) - 1
 
 
 def show(scenario: str, maps: list[Mapped]) -> None:
     table = tables.grid(scenario, "map", "along", "within its limits", "stable", "first broken", numbers=False)
     for one in maps:
-        for row in rows(one):
-            table.add_row(*row)
+        for k in range(len(one.grid.axes)):
+            table.add_row(*row(one, k))
     tables.console().print(table)
 
 
-def rows(one: Mapped) -> list[tuple[str, ...]]:
-    """One for each axis, the other at its first value."""
-    found = []
-    for k, axis in enumerate(one.grid.axes):
-        along = tuple(slice(None) if j == k else 0 for j in range(len(one.grid.axes)))
-        within = one.margin[along] >= 0
-        broken = np.flatnonzero(~within)
-        found.append((one.grid.name, axis.key, span(axis, *border(axis.values, within)), span(axis, *border(axis.values, one.stable[along])),
-                      one.said[along][broken[0]] if len(broken) else "–"))
-    return found
+def row(one: Mapped, k: int) -> tuple[str, ...]:
+    """Along axis k, the other at its first value with which the arm is within its limits anywhere."""
+    axis, others = one.grid.axes[k], [other for j, other in enumerate(one.grid.axes) if j != k]
+    margin, stable, said = (np.moveaxis(array, k, 0).reshape(len(axis.values), -1) for array in (one.margin, one.stable, one.said))
+    place = int(np.argmax((margin >= 0).any(axis=0)))
+    within = margin[:, place] >= 0
+    span = border(within)
+    last = span[1] if span else -1
+    held = "".join(f", {other.key} = {other.values[place]:g}" for other in others) if place else ""
+    why = str(said[last + 1, place]) if last + 1 < len(axis.values) else "–"
+    return one.grid.name, axis.key + held, words(axis, span), words(axis, border(stable[:, place])), why
 
 
-def span(axis: Axis, last: float | None, first: float | None) -> str:
-    unit = "" if axis.unit == "1" else f" {axis.unit}"
-    if last is None:
-        return f"not even at {first:g}{unit}"
-    return f"up to {last:g}{unit}" + (f", not at {first:g}" if first is not None else ", the largest value")
+def words(axis: Axis, span: tuple[int, int] | None) -> str:
+    if span is None:
+        return "nowhere"
+    (first, last), unit = span, "" if axis.unit == "1" else f" {axis.unit}"
+    beyond = f", not at {axis.values[last + 1]:g}" if last + 1 < len(axis.values) else ", the largest value"
+    lower = f"from {axis.values[first]:g} " if first else ""
+    return f"{lower}up to {axis.values[last]:g}{unit}{beyond}"

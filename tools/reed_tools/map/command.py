@@ -12,7 +12,7 @@ from reed_tools.run import in_memory
 FILE, PICTURE = "map.json", "map.png"
 MOST_STEPS = 50
 EXAMPLE = """examples:
-  tools/reed map press_known --only delay --steps 5    # the arm under 0 to 10 ms of delay in both directions
+  tools/reed map press_known --only delay              # the arm under 0 to 5 ms of delay in both directions
   tools/reed map free_motion --axis link.command_delay_s=0:0.02:21"""
 
 
@@ -21,7 +21,7 @@ def add_arguments(parser) -> None:
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--only", action="append", choices=list(grid.standard(2)), help="this map of the four; repeatable")
     which.add_argument("--axis", action="append", metavar="KEY=FROM:TO:N", help="a map over this key instead, or over two")
-    parser.add_argument("--steps", type=int, default=6, metavar="N", help="values on each axis of the four maps; default %(default)s")
+    parser.add_argument("--steps", type=int, default=11, metavar="N", help="values on each axis of the four maps; default %(default)s")
     parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="fixed in every run; repeatable")
     parser.add_argument("--seed", type=int, metavar="N", help="of every run; default: the scenario's")
     engine_options.add_arguments(parser)

@@ -48,8 +48,8 @@ def standard(steps: int) -> dict[str, Grid]:
     def both(name: str, quantity: str, most: float) -> Grid:
         return Grid(name, (even(f"link.command_{quantity}", 0.0, most, steps), even(f"link.measurement_{quantity}", 0.0, most, steps)))
 
-    rate = Grid("rate", (Axis("timing.rate_hz", RATES_HZ), even("link.command_delay_s", 0.0, 0.010, steps)), ("scenario.allow_wire_overload=true",))
-    return {"delay": both("delay", "delay_s", 0.010), "jitter": both("jitter", "jitter_s", 0.010), "loss": both("loss", "loss", 0.5), "rate": rate}
+    rate = Grid("rate", (Axis("timing.rate_hz", RATES_HZ), even("link.command_delay_s", 0.0, 0.005, steps)), ("scenario.allow_wire_overload=true",))
+    return {"delay": both("delay", "delay_s", 0.005), "jitter": both("jitter", "jitter_s", 0.005), "loss": both("loss", "loss", 0.5), "rate": rate}
 
 
 def own(words: list[str]) -> Grid:

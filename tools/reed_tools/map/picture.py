@@ -22,7 +22,7 @@ def draw(scenario: str, maps: list, target: Path) -> None:
             shown = panel(axis, one) or shown
         if shown is not None:
             figure.colorbar(shown, ax=axes, label="margin to the limits", shrink=0.8)
-        figure.suptitle(f"{scenario}: black: border of the limits; orange: border of stability; hatched: refused at start")
+        figure.suptitle(f"{scenario}\nblack: border of the limits, orange: border of stability; grey: not stable, hatched: refused at start")
         figure.savefig(target)
         plt.close(figure)
 
@@ -48,8 +48,8 @@ def panel(axis, one):
         axis.add_patch(plt.Rectangle((i, j), 1, 1, fill=False, hatch="///", linewidth=0))
     edges(axis, one.margin >= 0, LIMITS_COLOUR, 2.4)
     edges(axis, one.stable, STABILITY_COLOUR, 1.6)
-    axis.set_xticks([k + 0.5 for k in columns[:-1]], [f"{value:.3g}" for value in scaled(x)])
-    axis.set_yticks([k + 0.5 for k in rows[:-1]], [f"{value:.3g}" for value in scaled(y)])
+    axis.set_xticks([k + 0.5 for k in columns[:-1]], [f"{value:.4g}" for value in scaled(x)])
+    axis.set_yticks([k + 0.5 for k in rows[:-1]], [f"{value:.4g}" for value in scaled(y)])
     return shown
 
 
