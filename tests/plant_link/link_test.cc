@@ -27,6 +27,7 @@ class Cycles {
     sampled_ns =
         link.Start(start_ns, controller_.Sync({static_cast<std::uint32_t>(cycle), bus::layout::kLayoutId}));
     std::vector<bus::Frame> answers;
+    answers.reserve(kJoints + 1);
     for (int j = 0; j < kJoints; ++j)
       answers.push_back(arm_.JointState(
           j, {0.1 * j, 0.0, 1.0, bus::DriveState::kEnabled, static_cast<std::uint8_t>(cycle & 0xF)}));

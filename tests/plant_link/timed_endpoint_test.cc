@@ -12,7 +12,7 @@ constexpr double kTau_Nm = 4.0, kPeriod_s = 1e-3;
 /// A controller that enables the drives and then gives one torque.
 class Rig {
  public:
-  Rig(PlantConfig config, bool timed) {
+  Rig(const PlantConfig& config, bool timed) {
     if (timed)
       endpoint_ = std::make_unique<TimedEndpoint>(
           config, std::make_unique<LinkTransport>(wire_.plant, config), body_, recorder);

@@ -1,4 +1,6 @@
 // Faults between the simulated robot and its bus port: every kind does something, in its window and nowhere else.
+#include <gmock/gmock.h>
+
 #include <map>
 
 #include "reed/plant/faults/fault_checks.h"
@@ -8,8 +10,6 @@
 
 namespace reed::plant {
 namespace {
-
-using bus::layout::kCommand;
 
 FaultConfig FaultOf(const std::string& target, const std::string& kind, int from_cycle = 10) {
   FaultConfig fault;
