@@ -142,14 +142,18 @@ void Injector::Reset() {
   contact_ = false;
   braked_ = true;
   cycle_ = 0;
+  begun_.assign(configs_.size(), false);
 }
 
 void Injector::Step(std::int64_t cycle, double time_s, double enabled_for_s, bus::DriveState drives,
                     Measurement& m) noexcept {
   cycle_ = std::max(cycle_, cycle);  // a SYNC that was held back is no way back
-  std::fill(begun_.begin(), begun_.end(), false);
   const Scene scene = Look(cycle_, enabled_for_s, drives);
-  for (Entry& entry : entries_) Decide(entry, entry.trigger.Step(scene));
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const bool was = entries_[i].window;
+    Decide(entries_[i], entries_[i].trigger.Step(scene));
+    begun_[i] = entries_[i].window && !was;  // those before this one in the list see it in the next cycle
+  }
   if (fresh_) KeepSpeeds(m);
   ForActing(false, [&](Fault& fault, const Moment& at) { fault.OnMeasurement(m, at); });
   FollowEncoders(m, time_s - sampled_s_);
@@ -184,7 +188,6 @@ void Injector::Decide(Entry& entry, bool acts) noexcept {
   const FaultConfig& config = *entry.config;
   if (acts != entry.window && num_changes_ < changes_.size())
     changes_[num_changes_++] = {number, config.id.c_str(), config.kind.c_str(), config.target.c_str(), acts};
-  if (acts && !entry.window) begun_[number] = true;
   if (!acts && entry.window) {
     entry.fault->End();
     entry.pending = entry.fault->pending();

@@ -169,6 +169,10 @@ TEST_F(Faulty, AFaultMayBeginWithAnother) {
   EXPECT_EQ(course[10][0], 2.0);
   EXPECT_EQ(course[14][0], 2.0);
   EXPECT_EQ(course[15][0], 1.0);
+  const Course turned =
+      CourseOf(Moving({second, first}));  // one that is later in the list is seen a cycle later
+  EXPECT_EQ(turned[15][0], 2.0);
+  EXPECT_EQ(turned[16][0], 1.0);
 }
 
 TEST(Faults, ThatNothingWouldApplyAreRefused) {
