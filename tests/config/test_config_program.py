@@ -149,6 +149,7 @@ def test_a_scenario_with(defect, tmp_path):
     ("control.law=magic", ["control.law", "separated"]),
     ("sensors.force_range_N=50", ["limits.contact_force_N", "60 is not below 50 N", "saturates"]),
     ("control.k_p=0", ["control.k_p", "1e-06"]),
+    ("control.K_d.2=6e-323", ["control.K_d: joint 3", "which no K_d has"]),  # times 0.9 it is itself, rounded
     ("limits.hold_age_cycles=10", ["limits.hold_age_cycles", "hold_age_cycles < stop_age_cycles"]),
 ])
 def test_an_override_that_says(assignment, words):
