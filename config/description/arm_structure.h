@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reed/config/description/flexible_member.h"
 #include "reed/config/description/roll_pitch_yaw.h"
 #include "reed/config/sizes/sizes.h"
 #include "reed/math/plane.h"
@@ -104,9 +105,12 @@ struct ArmStructure {
   std::vector<double> position_min_rad;   // never empty after reading: -2.9 rad where absent
   std::vector<double> position_max_rad;   // 2.9 rad where absent
   std::vector<double> speed_limit_radps;  // 3 rad/s where absent
-  // Members in order from base to tip: for each link the non-zero d (along z), then the non-zero a (along x)
-  // that follows it.
+  // What bends, in order from base to tip; the rest is rigid. Either the members, or their sections where they follow the
+  // rows: for each link the non-zero d (along z), then the non-zero a (along x) that follows it. FlexibleMembers() reads both.
+  std::vector<FlexibleMember> members;
   std::vector<BeamSection> sections;
+
+  bool bends() const { return !members.empty() || !sections.empty(); }
 
   /// Longest distance from base to tool point.
   double reach_m() const {

@@ -5,6 +5,7 @@
 
 #include "reed/config/schema/arm_description.h"
 #include "reed/config/schema/bound.h"
+#include "reed/config/schema/box.h"
 #include "reed/config/schema/tube.h"
 
 namespace reed {
@@ -119,6 +120,52 @@ void Fields(V& v, BeamSection& c) {
   v.Required("EI", c.EI_Nm2, {"N·m²", 1e-3, 1e10}, "bending stiffness, both planes");
   v.Required("GJ", c.GJ_Nm2, {"N·m²", 1e-3, 1e10}, "torsional stiffness");
   v.Required("rhoA", c.rhoA_kgpm, {"kg/m", 1e-6, 1e4}, "mass per length");
+}
+
+inline constexpr double kShortestMember_m = 1e-4;
+
+template <typename V>
+void MemberPlace(V& v, FlexibleMember& c) {
+  v.Vector("from_m", c.from_m, kArmLength,
+           "its end on the side of the base, link frame; what is between it and the member before is rigid");
+  v.Vector("to_m", c.to_m, kArmLength, "its other end, link frame");
+  v.Vector("y_axis", c.y_axis, {"1", -1e3, 1e3},
+           "y of its section leans that way, link frame; zero: towards the axis that follows, x to y to z to "
+           "x, the one "
+           "along which the member is longest");
+}
+
+template <typename V>
+void MemberStiffnesses(V& v, FlexibleMember& c) {
+  v.Required("EA", c.EA_N, {"N", 1.0, 1e12}, "axial stiffness; tube or box say it too");
+  v.Required("EI_y", c.EI_y_Nm2, {"N·m²", 1e-3, 1e10},
+             "stiffness of bending about y of its section, which moves it along z");
+  v.Required("EI_z", c.EI_z_Nm2, {"N·m²", 1e-3, 1e10}, "the same about z");
+  v.Required("GJ", c.GJ_Nm2, {"N·m²", 1e-3, 1e10}, "torsional stiffness");
+}
+
+template <typename V>
+void MemberMass(V& v, FlexibleMember& c) {
+  v.Number("rhoA", c.rhoA_kgpm, {"kg/m", 0.0, 1e4},
+           "mass per length: in this proportion the link's mass lies along its members; 0: none along this "
+           "one; absent: that "
+           "of tube or box");
+}
+
+template <typename V>
+void Fields(V& v, FlexibleMember& c) {
+  MemberPlace(v, c);
+  MemberStiffnesses(v, c);
+  MemberMass(v, c);
+}
+
+template <typename V>
+void Fields(V& v, Box& c) {
+  v.Required("width", c.width_m, {"m", 1e-3, 2.0},
+             "outer, along y of the section; box instead of EA, EI_y, EI_z, GJ and rhoA");
+  v.Required("height", c.height_m, {"m", 1e-3, 2.0}, "outer, along z of the section");
+  v.Number("wall", c.wall_m, {"m", 0.0, 1.0}, "thickness of the wall, thin for its GJ; 0: a solid bar");
+  v.Choice("material", c.material, kMaterialNames, "with the constants in config/schema/tube.h");
 }
 
 template <typename V>

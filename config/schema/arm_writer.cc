@@ -68,6 +68,17 @@ void Geometry(ArmDescription& arm, toml::table& out) {
     out.insert("joint", Tables(arm.joints, [](Writer& w, Joint& joint) { Fields(w, joint); }));
 }
 
+toml::array Members(const ArmDescription& arm) {
+  toml::array out;
+  for (FlexibleMember member : arm.members) {
+    toml::table item{{"link", member.link + 1}};
+    Writer writer(item);
+    Fields(writer, member);
+    out.push_back(std::move(item));
+  }
+  return out;
+}
+
 toml::table Truth(ArmDescription arm) {
   toml::table out;
   Writer writer(out);
@@ -93,6 +104,7 @@ toml::table WriteArm(const ArmDescription& description) {
   const auto fields = [](Writer& w, auto& item) { Fields(w, item); };
   if (!arm.known.empty()) out.insert("known_bodies", Tables(arm.known, fields));
   if (!arm.sections.empty()) out.insert("sections", Tables(arm.sections, fields));
+  if (!arm.members.empty()) out.insert("member", Members(arm));
   if (!arm.bodies.empty()) out.insert("truth", Truth(arm));
   return out;
 }

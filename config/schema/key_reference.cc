@@ -128,6 +128,11 @@ std::string ArmKeyReference() {
   shapes.Row("viscous_weights", "n numbers, 0 ... 10⁴ N·m·s/rad per unit", "",
              "instead of a body: the parameter scales viscous friction");
   List<KnownMass>(out, "known_bodies[]");
+  Lister member(out, "member[]");
+  member.Row("link", "1 ... n", "needed", "the link that it is a part of: the one that joint moves");
+  List<FlexibleMember>(out, "member[]");
+  List<Tube>(out, "member[].tube");
+  List<Box>(out, "member[].box");
   List<BeamSection>(out, "sections[]");
   List<Tube>(out, "sections[].tube");
   truth.Row("p", "one per name, " + ToText(kArmParameter), "p_nom",

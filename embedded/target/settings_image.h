@@ -55,7 +55,8 @@ void Visit(Visitor<Each>& visit, model::ArmModel<N, P>& arm) {
             arm.position_max, arm.speed_limit, arm.num_members);
   for (int j = 0; j < arm.num_members; ++j) {
     model::Member& m = arm.member[j];
-    visit.All(m.link, m.axis, m.start_at, m.end_at, m.length, m.EA, m.EI, m.GJ, m.rhoA);
+    visit.All(m.link, m.start, m.end, m.t, m.y, m.z, m.length, m.EA, m.EI_y, m.EI_z, m.GJ, m.rhoA, m.softer,
+              m.start_at_origin, m.end_at_origin, m.start_along, m.tt);
   }
   for (int i = 0; i < N; ++i) visit(arm.carrier[i]);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reed/config/controller/nominal_arm.h"
+#include "reed/config/description/members.h"
 #include "reed/core/model/arm_model.h"
 #include "reed/math/sine.h"
 
@@ -83,41 +84,34 @@ void ReadBodies(const NominalArm& arm, ArmModel<N, P>& out) {
   out.first_shape[N] = count;
 }
 
-template <int N, int P>
-void AddMember(const NominalArm& arm, Member beam, ArmModel<N, P>& out) {
-  const int j = out.num_members++;
-  if (j >= static_cast<int>(arm.sections.size())) return;  // the caller compares the counts
-  const BeamSection& section = arm.sections[static_cast<std::size_t>(j)];
-  beam.length = std::abs(beam.end_at - beam.start_at);
-  if (std::abs(section.length_m - beam.length) > 1e-6) {
-    throw std::invalid_argument(arm.name + ": section " + std::to_string(j + 1) + " is " +
-                                std::to_string(section.length_m) + " m long, its joints are apart by " +
-                                std::to_string(beam.length) + " m");
-  }
-  beam.EA = section.EA_N;
-  beam.EI = section.EI_Nm2;
-  beam.GJ = section.GJ_Nm2;
-  beam.rhoA = section.rhoA_kgpm;
-  out.member[j] = beam;
-  int& longest = out.carrier[beam.link];
-  if (longest < 0 || beam.length > out.member[longest].length) longest = j;
-}
-
-/// Sections follow the chain: for each link its d along z_i, then the next row's a along x_i, where not zero.
-/// What lies before the first joint (a of the first row) and behind the last origin (the tool) is rigid.
+/// The longest member of a link carries its weight.
 template <int N, int P>
 void ReadMembers(const NominalArm& arm, ArmModel<N, P>& out) {
-  const auto along_x = [&](int i) { return arm.joints[static_cast<std::size_t>(i)].xyz_m.x(); };
-  out.num_members = 0;
-  for (int i = 0; i < N; ++i) {
-    out.carrier[i] = -1;
-    if (arm.sections.empty()) continue;
-    if (out.d(i) != 0.0) AddMember(arm, {i, 2, -out.d(i), 0.0}, out);
-    if (i + 1 < N && along_x(i + 1) != 0.0) AddMember(arm, {i, 0, 0.0, along_x(i + 1)}, out);
+  const std::vector<FlexibleMember> members = FlexibleMembers(arm);
+  if (members.size() > static_cast<std::size_t>(ArmModel<N, P>::kMaxMembers)) {
+    throw std::invalid_argument(arm.name + ": " + std::to_string(members.size()) +
+                                " members bend, the model is built for at most " +
+                                std::to_string(ArmModel<N, P>::kMaxMembers));
   }
-  if (static_cast<int>(arm.sections.size()) != out.num_members) {
-    throw std::invalid_argument(arm.name + ": " + std::to_string(arm.sections.size()) + " sections for " +
-                                std::to_string(out.num_members) + " members (non-zero d and a)");
+  for (int i = 0; i < N; ++i) out.carrier[i] = -1;
+  out.num_members = 0;
+  for (const FlexibleMember& member : members) {
+    const Eigen::Matrix3d axes = member.axes();
+    Member beam;
+    beam.link = member.link;
+    beam.Span(member.from_m, member.to_m);
+    beam.y = axes.col(1);
+    beam.z = axes.col(2);
+    beam.EA = member.EA_N;
+    beam.EI_y = member.EI_y_Nm2;
+    beam.EI_z = member.EI_z_Nm2;
+    beam.GJ = member.GJ_Nm2;
+    beam.rhoA = member.rhoA_kgpm;
+    beam.softer = beam.EI_y == beam.EI_z ? 0.0 : 1.0 / beam.EI_z - 1.0 / beam.EI_y;
+    const int j = out.num_members++;
+    out.member[j] = beam;
+    int& longest = out.carrier[beam.link];
+    if (longest < 0 || beam.length > out.member[longest].length) longest = j;
   }
 }
 

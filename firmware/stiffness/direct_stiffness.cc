@@ -1,6 +1,7 @@
 #include "reed/firmware/stiffness/direct_stiffness.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <stdexcept>
 
 #include "reed/firmware/stiffness/member_stiffness.h"
@@ -15,13 +16,25 @@ int DirectStiffness::AddNode(const Eigen::Vector3d& position, int master, int co
   return static_cast<int>(nodes_.size()) - 1;
 }
 
+Eigen::Vector3d DirectStiffness::Between(int from, int to) const {
+  const Eigen::Vector3d r = nodes_.at(Index(to)).position - nodes_.at(Index(from)).position;
+  if (!(r.norm() > 0.0)) throw std::invalid_argument("a member needs two nodes apart");
+  return r;
+}
+
+void DirectStiffness::AddMember(int from, int to, const SectionStiffness& section, const Eigen::Vector3d& y,
+                                const Eigen::Vector3d& spread_force) {
+  const Eigen::Vector3d r = Between(from, to);
+  const double L = r.norm();
+  Eigen::Matrix3d axes;
+  axes << r / L, y, (r / L).cross(y);
+  members_.push_back(
+      {from, to, MemberStiffness(axes, L, section), EquivalentNodalLoad(r / L, L, spread_force)});
+}
+
 void DirectStiffness::AddMember(int from, int to, double EA, double EI, double GJ,
                                 const Eigen::Vector3d& spread_force) {
-  const Eigen::Vector3d r = nodes_.at(Index(to)).position - nodes_.at(Index(from)).position;
-  const double L = r.norm();
-  if (!(L > 0.0)) throw std::invalid_argument("a member needs two nodes apart");
-  members_.push_back(
-      {from, to, MemberStiffness(r / L, L, EA, EI, GJ), EquivalentNodalLoad(r / L, L, spread_force)});
+  AddMember(from, to, {EA, EI, EI, GJ}, Between(from, to).unitOrthogonal(), spread_force);
 }
 
 Eigen::MatrixXd DirectStiffness::Map(int id) const {

@@ -46,7 +46,11 @@ class DirectStiffness {
     return id;
   }
 
-  /// Throws std::invalid_argument when the nodes coincide. `spread_force`: total force, spread evenly.
+  /// Throws std::invalid_argument when the nodes coincide. y: axis of the section, across the member; `spread_force`:
+  /// total force, spread evenly.
+  void AddMember(int from, int to, const SectionStiffness& section, const Eigen::Vector3d& y,
+                 const Eigen::Vector3d& spread_force);
+  /// Of a round section.
   void AddMember(int from, int to, double EA, double EI, double GJ, const Eigen::Vector3d& spread_force);
 
   /// Force and moment on a node, moment about it.
@@ -84,6 +88,7 @@ class DirectStiffness {
   };
 
   static std::size_t Index(int id) { return static_cast<std::size_t>(id); }
+  Eigen::Vector3d Between(int from, int to) const;
 
   int AddNode(const Eigen::Vector3d& position, int master, int coordinates);
 

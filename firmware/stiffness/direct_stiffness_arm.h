@@ -42,9 +42,10 @@ ArmStructure StructureOf(const ArmModel<N, P>& arm, const Kinematics<N>& kin, co
     for (; j < arm.num_members && arm.member[j].link == i; ++j) {
       const Member& beam = arm.member[j];
       const MemberLoad& load = loads.member[j];
-      const int from = end;
-      end = matrix.AddFree(kin.p[i] + beam.end_at * kin.R[i].col(beam.axis));
-      matrix.AddMember(from, end, beam.EA, beam.EI, beam.GJ, load.spread);
+      const MemberLine line = LineOf(beam, kin.R[i], kin.p[i]);
+      const int from = matrix.AddRigid(end, line.start);
+      end = matrix.AddFree(line.end);
+      matrix.AddMember(from, end, {beam.EA, beam.EI_y, beam.EI_z, beam.GJ}, kin.R[i] * beam.y, load.spread);
       matrix.AddLoad(from, wrench({load.start, Eigen::Vector3d::Zero()}));
       matrix.AddLoad(end, wrench(load.end));
       out.members.push_back(end);

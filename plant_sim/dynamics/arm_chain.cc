@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reed/config/description/members.h"
 #include "reed/math/turn.h"
 #include "reed/plant/dynamics/mass_split.h"
 
@@ -16,10 +17,10 @@ namespace {
 
 constexpr double kHoldingTorqueOverLimit = 3.0;  // of a brake, over the drive's torque limit
 constexpr double kHoldingTorque = 200.0;         // N·m, where the arm file states no torque limit
-constexpr double kSameLength = 1e-6;             // m, between a section and its member
 constexpr double kSlight = 0.05;                 // of a link's mass: such a rest sits at a member's end
 constexpr double kNothing = 1e-14;               // of a mount that is an identity but for round-off
 constexpr double kAtEnd = 1e-9;                  // of an element's length: the section at its end
+constexpr double kMassless = 1e-6;               // of the arm's mass, along a member that has none
 
 void Require(bool condition, const TrueArm& arm, const std::string& what) {
   if (!condition) throw std::invalid_argument("arm " + arm.name + " cannot be simulated: " + what);
@@ -39,16 +40,17 @@ void CheckDrives(const TrueArm& arm) {
   }
 }
 
-void CheckSection(const TrueArm& arm, std::size_t index, double length) {
-  const std::string name = "section " + std::to_string(index + 1);
-  Require(index < arm.sections.size(), arm,
-          name + " is needed for a flexible member of " + std::to_string(length) + " m");
-  const BeamSection& s = arm.sections[index];
-  Require(
-      std::abs(s.length_m - length) <= kSameLength, arm,
-      name + " has length " + std::to_string(s.length_m) + " m, its member " + std::to_string(length) + " m");
-  Require(s.EA_N > 0.0 && s.EI_Nm2 > 0.0 && s.GJ_Nm2 > 0.0, arm, name + " needs positive EA, EI and GJ");
-  Require(s.rhoA_kgpm > 0.0, arm, name + " needs a positive rhoA");
+void CheckMembers(const TrueArm& arm, const std::vector<FlexibleMember>& members) {
+  for (std::size_t j = 0; j < members.size(); ++j) {
+    const FlexibleMember& m = members[j];
+    const std::string name = "member " + std::to_string(j + 1);
+    Require(m.link >= 0 && m.link < arm.dof() && (j == 0 || members[j - 1].link <= m.link), arm,
+            name + " needs a link of the arm, base to tip");
+    Require(m.length_m() > 0.0, arm, name + " needs two ends that are apart");
+    Require(m.EA_N > 0.0 && m.EI_y_Nm2 > 0.0 && m.EI_z_Nm2 > 0.0 && m.GJ_Nm2 > 0.0, arm,
+            name + " needs positive EA, EI and GJ");
+    Require(m.rhoA_kgpm >= 0.0, arm, name + " needs a rhoA that is not negative");
+  }
 }
 
 double At(const std::vector<double>& values, std::size_t i, double otherwise) {
@@ -76,27 +78,14 @@ Placement PlacementOf(const FixedFrame& frame) {
   return {math::TurnZ(rpy.z()) * math::TurnY(rpy.y()) * math::TurnX(rpy.x()), frame.xyz_m};
 }
 
-/// Base of a member whose x axis points along z (d) or x (a) of the link frame, or against it.
-Placement AlongD(double d) {
-  const double s = d < 0.0 ? -1.0 : 1.0;
-  Matrix3d R;
-  R << 0.0, 1.0, 0.0, 0.0, 0.0, s, s, 0.0, 0.0;
-  return {R, Vector3d(0.0, 0.0, -d)};
-}
-
-Placement AlongA(double a) {
-  const double s = a < 0.0 ? -1.0 : 1.0;
-  return {Vector3d(s, 1.0, s).asDiagonal().toDenseMatrix(), Vector3d::Zero()};
-}
-
 /// Builds the chain link by link; keeps the pose of the last output frame in the frame of the current link.
 class Builder {
  public:
   Builder(const TrueArm& arm, const PlantModelConfig& config)
-      : arm_(arm),
-        config_(config),
-        bends_(config.flexible_links && !arm.sections.empty()),
-        output_(PlacementOf(arm.base).Inverse()) {
+      : arm_(arm), config_(config), output_(PlacementOf(arm.base).Inverse()) {
+    if (config.flexible_links) flexible_ = FlexibleMembers(arm);
+    CheckMembers(arm, flexible_);
+    for (const InertialBody& body : arm.bodies) mass_kg_ += body.mass_kg;
     chain_.base = arm.base.xyz_m;
     chain_.gravity = arm.gravity_mps2;
   }
@@ -115,12 +104,10 @@ class Builder {
   void AddLink(std::size_t i) {
     const InertialBody& b = arm_.bodies[i];
     const RigidBody body{b.mass_kg, b.com_m, b.inertia_com_kgm2};
-    if (!bends_) {
-      Attach(chain_.elements.back(), body);
-      return;
-    }
+    const std::size_t first = next_;
     std::vector<LinkMember> members = Members(i);
     const RigidBody rest = SplitMass(body, members);
+    for (LinkMember& member : members) GiveMass(member);
 
     std::size_t nearest = members.size();
     double at = 0.0, distance = 0.0;
@@ -135,13 +122,11 @@ class Builder {
       distance = d;
     }
     if (members.empty()) Attach(chain_.elements.back(), rest);
-    for (std::size_t m = 0; m < members.size(); ++m) AddMember(i, members[m], m == nearest ? at : -1.0, rest);
+    for (std::size_t m = 0; m < members.size(); ++m)
+      AddMember(flexible_[first + m], members[m], m == nearest ? at : -1.0, rest);
   }
 
   ArmChain Finish() {
-    Require(!bends_ || section_ == arm_.sections.size(), arm_,
-            std::to_string(arm_.sections.size()) + " sections are given, its members are " +
-                std::to_string(section_));
     chain_.tool = output_.Inverse() * Shift(arm_.tool.xyz_m);
     chain_.force_sensor = output_.Inverse() * PlacementOf(arm_.force_sensor);
     chain_.sensed_mass = arm_.force_sensor.tool_mass_kg;
@@ -160,27 +145,25 @@ class Builder {
 
   std::vector<LinkMember> Members(std::size_t i) {
     std::vector<LinkMember> members;
-    const auto add = [&](const Placement& base, double signed_length) {
-      if (signed_length == 0.0) return;
-      const double length = std::abs(signed_length);
-      CheckSection(arm_, section_, length);
-      const BeamSection& s = arm_.sections[section_++];
-      // A section with one EI for both planes has a polar second moment of area of 2 I: ρ_p = ρA 2I/A.
-      members.push_back({base, length, s.rhoA_kgpm, 2.0 * s.rhoA_kgpm * s.EI_Nm2 / s.EA_N, {}});
-    };
-    sections_of_link_ = section_;
-    add(AlongD(arm_.joints[i].d_m), arm_.joints[i].d_m);
-    if (i + 1 < arm_.joints.size()) {
-      const double along_x = arm_.joints[i + 1].xyz_m.x();
-      add(AlongA(along_x), along_x);
+    for (; next_ < flexible_.size() && flexible_[next_].link == static_cast<int>(i); ++next_) {
+      const FlexibleMember& m = flexible_[next_];
+      // The polar second moment of area is the sum of both others: ρ_p = ρA (I_y + I_z)/A.
+      const double polar = m.rhoA_kgpm * (m.EI_y_Nm2 + m.EI_z_Nm2) / m.EA_N;
+      members.push_back({{m.axes(), m.from_m}, m.length_m(), m.rhoA_kgpm, polar, {}});
     }
     return members;
   }
 
-  /// One member of link i, cut into elements. The rest of the link's mass sits at `at` if that is not
-  /// negative.
-  void AddMember(std::size_t i, const LinkMember& member, double at, const RigidBody& rest) {
-    const BeamSection& s = arm_.sections[sections_of_link_++];
+  /// Every elastic coordinate has an acceleration: a member without mass gets one that no figure shows, for its own
+  /// bending and twisting alone.
+  void GiveMass(LinkMember& member) const {
+    if (member.density + member.relative.density > 0.0) return;
+    member.relative.density = kMassless * (mass_kg_ > 0.0 ? mass_kg_ : 1.0) / member.length;
+    member.relative.polar = member.relative.density * kMassless * member.length * member.length;
+  }
+
+  /// One member, cut into elements. The rest of the link's mass sits at `at` if that is not negative.
+  void AddMember(const FlexibleMember& s, const LinkMember& member, double at, const RigidBody& rest) {
     const double scale = config_.stiffness_scale;
     const int count = config_.elements_per_link;
     const double length = member.length / count;
@@ -193,9 +176,10 @@ class Builder {
 
       Member beam;
       beam.length = length;
-      beam.elasticity = BeamElasticity(length, scale * s.EI_Nm2, scale * s.EA_N, scale * s.GJ_Nm2);
+      beam.elasticity =
+          BeamElasticity(length, scale * s.EI_y_Nm2, scale * s.EI_z_Nm2, scale * s.EA_N, scale * s.GJ_Nm2);
       beam.inertia = BeamInertia(length, member.density, member.polar, member.relative);
-      beam.link = static_cast<int>(i);
+      beam.link = s.link;
       if (here && local > length * kAtEnd && local < length * (1.0 - kAtEnd)) {
         beam.body_at = local;
         beam.body = InParent((base * Shift({local, 0.0, 0.0})).Inverse(), rest);
@@ -212,10 +196,11 @@ class Builder {
 
   const TrueArm& arm_;
   const PlantModelConfig& config_;
-  bool bends_;  // rigid where the arm has no sections
+  std::vector<FlexibleMember> flexible_;  // base to tip; what is not among them is rigid
+  double mass_kg_ = 0.0;                  // of the whole arm
   ArmChain chain_;
-  Placement output_;                                // last output frame in the current link's frame
-  std::size_t section_ = 0, sections_of_link_ = 0;  // next section to read, next one to build
+  Placement output_;      // last output frame in the current link's frame
+  std::size_t next_ = 0;  // of flexible_
 };
 
 }  // namespace

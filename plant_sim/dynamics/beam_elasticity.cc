@@ -2,20 +2,23 @@
 
 namespace reed::plant {
 
-BeamElasticity::BeamElasticity(double length, double EI, double EA, double GJ)
+BeamElasticity::BeamElasticity(double length, double EI_y, double EI_z, double EA, double GJ)
     : axial(EA / length), torsion(GJ / length) {
-  const BendingMat K = EI * IntegrateShapes(length).curvature;
-  bending = K.diagonal();
-  bending_coupling = K(0, 1);
+  const BendingMat curvature = IntegrateShapes(length).curvature;
+  const auto plane = [&](double EI) { return Plane{EI * curvature.diagonal(), EI * curvature(0, 1)}; };
+  v = plane(EI_z);
+  w = plane(EI_y);
 }
 
 ElasticVec BeamElasticity::Force(const ElasticVec& e) const {
   ElasticVec force;
-  for (const int plane : {kA, kB}) {
-    force.segment<kBending>(plane) = bending.cwiseProduct(e.segment<kBending>(plane));
-    force[plane] += bending_coupling * e[plane + 1];
-    force[plane + 1] += bending_coupling * e[plane];
-  }
+  const auto bend = [&](const Plane& plane, int at) {
+    force.segment<kBending>(at) = plane.diagonal.cwiseProduct(e.segment<kBending>(at));
+    force[at] += plane.coupling * e[at + 1];
+    force[at + 1] += plane.coupling * e[at];
+  };
+  bend(v, kA);
+  bend(w, kB);
   force[kU] = axial * e[kU];
   force[kTwist] = torsion * e[kTwist];
   return force;

@@ -17,8 +17,12 @@ CentreLine::CentreLine(const ArmChain& chain, int samples)
     sections_.emplace_back(member.length, member.length);
   }
   points_.resize(2 + chain.elements.size() + chain.members.size() * samples_, Vector3d::Zero());
+  for (const Element& element : chain.elements)
+    if (StartsApart(element)) points_.push_back(Vector3d::Zero());
   points_.front() = chain.base;
 }
+
+bool CentreLine::StartsApart(const Element& element) { return element.member >= 0 && element.mount_shifts; }
 
 const std::vector<Vector3d>& CentreLine::At(const VectorXd& x) {
   const Eigen::Index n = chain_.dof();
@@ -31,6 +35,7 @@ const std::vector<Vector3d>& CentreLine::At(const VectorXd& x) {
       points_[k++] = carrier.p;
       continue;
     }
+    if (StartsApart(element)) points_[k++] = base.p;
     const auto member = static_cast<std::size_t>(element.member);
     const ElasticVec e = x.segment<kElastic>(2 * n + Eigen::Index{kElastic} * element.member);
     Section* section = &sections_[member * (samples_ + 1)];

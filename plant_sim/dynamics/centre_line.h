@@ -1,6 +1,6 @@
 // The arm's centre line as points from base to tool point, world frame: every joint, both ends of every element and
-// sections inside it. Kinematics alone, so that it can be asked for any state beside the one that is integrated.
-// RT: safe after construction.
+// sections inside it. What is rigid between them is a straight line. Kinematics alone, so that it can be asked for any
+// state beside the one that is integrated. RT: safe after construction.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +20,9 @@ class CentreLine {
   const std::vector<Eigen::Vector3d>& At(const Eigen::VectorXd& x);
 
  private:
+  /// A member that does not begin where the element before it ends.
+  static bool StartsApart(const Element& element);
+
   const ArmChain& chain_;
   std::size_t samples_;
   std::vector<Section> sections_;  // of each member: those inside, then its end

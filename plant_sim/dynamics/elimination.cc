@@ -22,10 +22,12 @@ void ElementBlock::Carry(const Section& section, const Inertia6& inertia, const 
 
 void ElementBlock::AddElastic(const BeamElasticity& elasticity, double weight, const ElasticVec& reach) {
   p_.head<kElastic>() -= elasticity.Force(reach);
-  for (const int plane : {kA, kB}) {
-    M_.diagonal().segment<kBending>(plane) += weight * elasticity.bending;
-    M_(plane, plane + 1) += weight * elasticity.bending_coupling;
-  }
+  const auto bend = [&](const BeamElasticity::Plane& plane, int at) {
+    M_.diagonal().segment<kBending>(at) += weight * plane.diagonal;
+    M_(at, at + 1) += weight * plane.coupling;
+  };
+  bend(elasticity.v, kA);
+  bend(elasticity.w, kB);
   M_(kU, kU) += weight * elasticity.axial;
   M_(kTwist, kTwist) += weight * elasticity.torsion;
 }

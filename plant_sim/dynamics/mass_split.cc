@@ -56,6 +56,7 @@ RigidBody SplitMass(const RigidBody& body, std::vector<LinkMember>& members) {
   if (members.empty()) return body;
   double structure = 0.0;
   for (const LinkMember& member : members) structure += member.density * member.length;
+  if (structure == 0.0) return body;
   const double mass_share =
       LargestShare(body, body.mass / structure, [&](double share) { return Lines(members, share, 0.0); });
   const double polar_share =

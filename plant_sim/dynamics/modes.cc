@@ -26,7 +26,7 @@ std::vector<double> BeamModes(double length_m, double EI_Nm2, double rhoA_kgpm, 
   for (int i = 0; i < elements; ++i) {
     Member member;
     member.length = length;
-    member.elasticity = BeamElasticity(length, EI_Nm2, EI_Nm2, EI_Nm2);
+    member.elasticity = BeamElasticity(length, EI_Nm2, EI_Nm2, EI_Nm2, EI_Nm2);
     member.inertia = BeamInertia(length, rhoA_kgpm, 0.0);
     Element element;
     element.member = i;
@@ -55,13 +55,13 @@ std::vector<double> BeamModes(double length_m, double EI_Nm2, double rhoA_kgpm, 
 namespace {
 
 /// What bends while the motors are locked: a description may leave out the rotors, which do not move, and
-/// either the springs or the sections, which are then rigid.
+/// either the springs or the members, which are then rigid.
 ArmChain LockedChain(TrueArm arm, const PlantModelConfig& config) {
   constexpr double kRigid_Nmprad = 1e9;
   const auto joints = static_cast<std::size_t>(arm.dof());
-  if (arm.joint_stiffness_Nmprad.empty() && arm.sections.empty())
+  if (arm.joint_stiffness_Nmprad.empty() && !arm.bends())
     throw std::invalid_argument("arm " + arm.name +
-                                ": nothing bends, it has neither joint_stiffness nor sections");
+                                ": nothing bends, it has neither joint_stiffness nor members");
   if (arm.rotor_inertia_kgm2.empty()) arm.rotor_inertia_kgm2.assign(joints, 1.0);
   if (arm.joint_stiffness_Nmprad.empty()) arm.joint_stiffness_Nmprad.assign(joints, kRigid_Nmprad);
   return BuildChain(arm, config);

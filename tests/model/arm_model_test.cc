@@ -40,12 +40,22 @@ TEST(ArmModel, ColumnsBeyondTheDescribedParametersStayZero) {
 TEST(ArmModel, MembersFollowTheChainWithTheirSigns) {
   const test::ModelArm<6, 4> arm(test::SkewArm());
   ASSERT_EQ(arm.num_members, 7);
-  EXPECT_EQ(arm.member[0].axis, 2);
-  EXPECT_EQ(arm.member[1].axis, 0);
+  EXPECT_EQ(arm.member[0].t, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(arm.member[1].t, Eigen::Vector3d::UnitX());
   EXPECT_EQ(arm.member[2].link, 1);
-  EXPECT_EQ(arm.member[2].sign(), -1.0);
+  EXPECT_EQ(arm.member[2].t, -Eigen::Vector3d::UnitZ());
   EXPECT_EQ(arm.carrier[1], 3);   // a = 0.3 is longer than d = -0.05
   EXPECT_EQ(arm.carrier[4], -1);  // neither d nor a
+}
+
+TEST(ArmModel, RefusesMoreMembersThanItHasRoomFor) {
+  ArmDescription arm = test::ArmA5();
+  arm.sections.clear();
+  FlexibleMember member{0, {0.0, 0.0, 0.0}, {0.1, 0.2, 0.3}, {0.0, 0.0, 0.0}, 1e7, 900.0, 500.0, 700.0, 0.0};
+  arm.members.assign(10, member);
+  EXPECT_EQ((test::ModelArm<5, 6>(arm)).num_members, 10);
+  arm.members.push_back(member);
+  EXPECT_THROW((test::ModelArm<5, 6>(arm)), std::invalid_argument);
 }
 
 TEST(ArmModel, RefusesADescriptionOfAnotherSize) {

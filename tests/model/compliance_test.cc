@@ -27,7 +27,7 @@ void ExpectAgreement(const test::ModelArm<N, P>& arm, JointModel joints, test::D
   ASSERT_TRUE(solution.determinate());
 
   Vec6 tip = serial.tip_links.AsVector();
-  if (joints == JointModel::kElastic) tip += serial.tip_joints.AsVector();
+  if (joints == JointModel::kElastic) tip += TipBySprings(kin, serial).AsVector();
   EXPECT_NEAR((structure.matrix.Displacement(structure.tip, solution) - tip).norm(), 0.0,
               kAgree * tip.norm());
   for (int j = 0; j < arm.num_members; ++j) {
@@ -52,6 +52,29 @@ TEST(SerialCompliance, AgreesWithTheDirectStiffnessMethodOnA5) {
 TEST(SerialCompliance, AgreesWithTheDirectStiffnessMethodOnASkewArm) {
   const test::ModelArm<6, 4> arm(test::SkewArm());
   test::Draw draw(22);
+  for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
+  for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
+}
+
+/// Several members on a link, in any direction, apart from joints and from each other, flat sections; a rigid link.
+ArmDescription ArmOfMembers() {
+  ArmDescription arm = test::SkewArm();
+  arm.sections.clear();
+  const auto add = [&](int link, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                       const Eigen::Vector3d& y) {
+    arm.members.push_back({link, from, to, y, 1.0e7, 900.0, 250.0, 700.0, 0.4});
+  };
+  add(0, {0.0, 0.0, -0.25}, {0.05, 0.1, -0.1}, {1.0, 0.0, 0.0});
+  add(0, {0.05, 0.1, -0.1}, {0.1, -0.05, 0.02}, {0.0, 0.0, 0.0});
+  add(0, {0.1, -0.02, 0.02}, {0.1, 0.0, 0.0}, {0.0, 1.0, 1.0});
+  add(2, {0.0, 0.01, 0.0}, {-0.08, 0.0, 0.3}, {0.0, 0.0, 0.0});
+  add(5, {0.0, 0.0, -0.1}, {0.02, -0.03, 0.0}, {0.3, 1.0, 0.0});
+  return arm;
+}
+
+TEST(SerialCompliance, AgreesWithTheDirectStiffnessMethodOnMembersInAnyDirection) {
+  const test::ModelArm<6, 4> arm(ArmOfMembers());
+  test::Draw draw(25);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kElastic, draw);
   for (int n = 0; n < 50; ++n) ExpectAgreement(arm, JointModel::kRigid, draw);
 }

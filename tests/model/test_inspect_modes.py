@@ -146,7 +146,7 @@ def test_an_arm_of_which_nothing_bends_says_so(inspect_program, tmp_path):
     path = tmp_path / "any.json"
     path.write_text(json.dumps(arm))
     done = inspect(inspect_program, "--arm", path, "--modes", 3)
-    assert done.returncode == 2 and done.stderr == "arm any: nothing bends, it has neither joint_stiffness nor sections\n"
+    assert done.returncode == 2 and done.stderr == "arm any: nothing bends, it has neither joint_stiffness nor members\n"
 
 
 @pytest.mark.parametrize("arguments, words", [

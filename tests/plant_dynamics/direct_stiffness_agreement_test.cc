@@ -62,6 +62,42 @@ TEST_P(AgreementTest, NodalCompensationBringsThePlantsTipToThePlan) {
   EXPECT_LT(3.0 * with, without);
 }
 
+/// a5 with links of other shapes: an L of two pieces, one that is skew, flat and massless, one that is rigid for a part.
+ArmDescription ArmOfMembers() {
+  ArmDescription arm = test::ArmA5();
+  arm.sections.clear();
+  const auto add = [&](int link, const Vector3d& from, const Vector3d& to, const Vector3d& y, double EI_z,
+                       double rhoA) {
+    arm.members.push_back({link, from, to, y, 9.0e6, 900.0, EI_z, 600.0, rhoA});
+  };
+  add(1, {0.0, 0.0, 0.0}, {0.1, 0.0, 0.15}, {0.0, 0.0, 0.0}, 900.0, 0.4);
+  add(1, {0.1, 0.0, 0.15}, {0.35, 0.0, 0.0}, {0.0, 1.0, 0.3}, 200.0, 0.8);
+  add(2, {0.02, 0.0, 0.0}, {0.25, 0.05, -0.1}, {1.0, 0.0, 1.0}, 300.0, 0.0);
+  add(4, {0.0, 0.0, -0.15}, {0.0, 0.0, -0.05}, {0.0, 0.0, 0.0}, 400.0, 0.3);
+  return arm;
+}
+
+/// Slope at zero: central differences of two widths, so that terms of second to fourth order in the load leave.
+template <typename Moved>
+Vector3d Slope(Moved moved, double load) {
+  const auto difference = [&](double width) -> Vector3d {
+    return (moved(width) - moved(-width)) / (2.0 * width);
+  };
+  return (4.0 * difference(load) - difference(2.0 * load)) / 3.0;
+}
+
+TEST_P(AgreementTest, MembersInAnyDirectionYieldAsInTheDirectStiffnessMethod) {
+  const ArmDescription description = ArmOfMembers();
+  const test::ModelArm<5, 6> arm(description);
+  const model::Mat6 C = model::LinkCompliance(arm, kin_) + model::JointCompliance(arm, kin_);
+  plant::ArmModes plant(TrueOf(description), PlantModelConfig{}, q_);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto moved = [&](double load) { return plant.Load(load * Vector3d::Unit(axis), false); };
+    const Vector3d expected = C.block<3, 1>(0, axis);
+    EXPECT_LT((Slope(moved, 1.0) - expected).norm(), 1e-8 * expected.norm()) << axis;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Poses, AgreementTest,
                          testing::Values(std::vector{0.2, 0.6, -0.9, 0.5, 0.3},
                                          std::vector{0.4, 0.9, -1.5, 0.3, -1.0},

@@ -185,11 +185,12 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair(
             "section 4 is needed", +[](PlantConfig& s) { s.arm.sections.pop_back(); }),
         std::pair(
-            "5 sections are given", +[](PlantConfig& s) { s.arm.sections.push_back(s.arm.sections[0]); }),
+            "5 sections are given for 4",
+            +[](PlantConfig& s) { s.arm.sections.push_back(s.arm.sections[0]); }),
         std::pair(
             "section 2 has length", +[](PlantConfig& s) { s.arm.sections[1].length_m = 0.3; }),
         std::pair(
-            "section 3 needs positive", +[](PlantConfig& s) { s.arm.sections[2].EI_Nm2 = 0.0; }),
+            "member 3 needs positive", +[](PlantConfig& s) { s.arm.sections[2].EI_Nm2 = 0.0; }),
         std::pair(
             "one body per link", +[](PlantConfig& s) { s.arm.bodies.pop_back(); }),
         std::pair(

@@ -61,7 +61,7 @@ void PutDeflections(const Arm<N>& arm, const model::Kinematics<N>& kin, const Na
   out.SetVector("tip_deflection_rigid_joints", links);
   PutNodes("node_deflections_rigid_joints", arm, kin, loads, model::JointModel::kRigid, out);
   if (arm.joint_stiffness.allFinite()) {
-    const model::Vec6 with_springs = links + bent.tip_joints.AsVector();
+    const model::Vec6 with_springs = links + model::TipBySprings(kin, bent).AsVector();
     out.SetVector("tip_deflection_with_joint_springs", with_springs);
     PutNodes("node_deflections_with_joint_springs", arm, kin, loads, model::JointModel::kElastic, out);
   }
@@ -79,7 +79,7 @@ void PutSag(const Arm<N>& arm, const model::Kinematics<N>& kin, NamedValues& out
   model::StructuralLoads<N> loads;
   model::AddBodyWeight(arm, kin, bodies, loads);
   const auto bent = model::DeflectSerially(arm, kin, loads);
-  const model::Vec6 sag = bent.tip_links.AsVector() + bent.tip_joints.AsVector();
+  const model::Vec6 sag = bent.tip_links.AsVector() + model::TipBySprings(kin, bent).AsVector();
   out.SetVector("tip_sag", sag);
   PutNodes("node_sag", arm, kin, loads, model::JointModel::kElastic, out);
   out.SetVector("theta_d_offset", model::CompensateDeflection(arm, kin, bodies, model::Wrench{}).offset);

@@ -24,15 +24,43 @@ struct UnitShape {
   MassMoments unit;
 };
 
-/// A straight elastic member along one axis of its link; one EI for both bending planes (round tube).
+/// A straight elastic member of a link. Everything in the link's frame.
 struct Member {
-  int link = 0;                         // 0-based
-  int axis = 2;                         // 2: d of the link, along z_i; 0: a of the next row, along x_i
-  double start_at = 0.0, end_at = 0.0;  // where on that axis, from the origin of the link
-  double length = 0.0, EA = 0.0, EI = 0.0, GJ = 0.0, rhoA = 0.0;
+  int link = 0;                // 0-based
+  Eigen::Vector3d start, end;  // start: on the side of the base
+  Eigen::Vector3d t, y, z;     // unit vectors: along it, and the axes of its section
+  double length = 0.0, EA = 0.0, EI_y = 0.0, EI_z = 0.0, GJ = 0.0, rhoA = 0.0;
+  double softer = 0.0;  // 1/EI_z - 1/EI_y: by how much it bends more about z; 0 for a round section
 
-  double sign() const { return end_at < start_at ? -1.0 : 1.0; }
+  // What follows from its ends, by Span().
+  bool start_at_origin = false, end_at_origin = false;  // of the link
+  double start_along = 0.0;                             // t · start
+  Vec<6> tt = Vec<6>::Zero();  // tᵀ J t = tt · (J_xx, J_yy, J_zz, J_xy, J_xz, J_yz)
+
+  void Span(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    start = from;
+    end = to;
+    length = (to - from).norm();
+    t = (to - from) / length;
+    start_at_origin = from.isZero(0.0);
+    end_at_origin = to.isZero(0.0);
+    start_along = t.dot(from);
+    tt << t.cwiseAbs2(), 2.0 * t.x() * t.y(), 2.0 * t.x() * t.z(), 2.0 * t.y() * t.z();
+  }
 };
+
+/// A member in the world.
+struct MemberLine {
+  Eigen::Vector3d start, t, end;
+};
+
+/// On a link at p, turned by R. An end at the link's origin is at p to the bit.
+inline MemberLine LineOf(const Member& beam, const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d t = R * beam.t, along = beam.length * t;
+  if (beam.end_at_origin) return {p - along, t, p};
+  const Eigen::Vector3d start = beam.start_at_origin ? p : Eigen::Vector3d(p + R * beam.start);
+  return {start, t, start + along};
+}
 
 template <int N, int P>
 struct ArmModel {
@@ -63,11 +91,11 @@ struct ArmModel {
   Vec<N> rotor_inertia, joint_stiffness, joint_hardening, torque_limit, position_min, position_max,
       speed_limit;
 
-  // Elastic members from base to tip; none for an arm that is described without sections.
+  // Elastic members from base to tip; none for an arm that is described without.
   FixedArray<Member, kMaxMembers> member;
   int num_members;
   FixedArray<int, N>
-      carrier;  // the longer member of each link, which carries its weight; -1: the link has none
+      carrier;  // the longest member of each link, which carries its weight; -1: the link has none
 };
 
 }  // namespace reed::model

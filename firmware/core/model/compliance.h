@@ -31,13 +31,22 @@ struct SerialDeflections {
   Vec<N> spring;                         // rotation that the linear spring of joint i yields to it (rad)
   FixedArray<Deflection, 2 * N> member;  // end of member j relative to its start
   Deflection tip_links;                  // tool point, from the members alone
-  Deflection tip_joints;                 // tool point, from the springs alone
 };
 
-/// Cantilever of direction t: end deflection under the wrench W at the end and the force Q spread evenly.
+/// What a cantilever yields more in the plane of its y because it bends there about z, with EI_z.
+inline Deflection SofterPlane(const Member& beam, const Eigen::Vector3d& y, const Eigen::Vector3d& z,
+                              const Wrench& W, const Eigen::Vector3d& Q) {
+  const double L = beam.length, F_y = W.F.dot(y), Q_y = Q.dot(y), n_z = W.n.dot(z);
+  const double more = L * beam.softer;
+  return {more * (L * L * (F_y / 3.0 + Q_y / 8.0) + L / 2.0 * n_z) * y,
+          more * (n_z + L * (F_y / 2.0 + Q_y / 6.0)) * z};
+}
+
+/// Cantilever of direction t with EI_y in both planes: end deflection under the wrench W at the end and the force Q spread
+/// evenly.
 [[gnu::always_inline]] inline Deflection Cantilever(const Member& beam, const Eigen::Vector3d& t,
                                                     const Wrench& W, const Eigen::Vector3d& Q) {
-  const double L = beam.length, L_EI = L / beam.EI;
+  const double L = beam.length, L_EI = L / beam.EI_y;
   const Eigen::Vector3d F_axial = W.F.dot(t) * t, Q_axial = Q.dot(t) * t, n_axial = W.n.dot(t) * t;
   // clang-format off
   return {(L / beam.EA) * (F_axial + Q_axial / 2.0)
@@ -71,22 +80,33 @@ SerialDeflections<N> DeflectSerially(const ArmModel<N, P>& arm, const Kinematics
     for (; j >= 0 && arm.member[j].link == i; --j) {
       const Member& beam = arm.member[j];
       const MemberLoad& load = loads.member[j];
-      const Vector3d axis = kin.R[i].col(beam.axis), t = beam.sign() * axis;
-      move_to(kin.p[i] + beam.end_at * axis);
+      const Eigen::Matrix3d& R = kin.R[i];
+      const auto [start, t, end] = LineOf(beam, R, kin.p[i]);
+      move_to(end);
       W.F += load.end.F;
       W.n += load.end.n;
       out.member[j] = Cantilever(beam, t, W, load.spread);
+      if (beam.softer != 0.0)
+        out.member[j].AddRigidly(SofterPlane(beam, R * beam.y, R * beam.z, W, load.spread), Vector3d::Zero());
       out.tip_links.AddRigidly(out.member[j], kin.tip - c);
-      move_to(kin.p[i] + beam.start_at * axis);
+      move_to(start);
       W.n += (0.5 * beam.length) * t.cross(load.spread);
       W.F += load.spread + load.start;
     }
     const Vector3d z = kin.R[i].col(2);
     out.torque(i) = z.dot(W.n + (c - kin.p[i]).cross(W.F));
     out.spring(i) = out.torque(i) / arm.joint_stiffness(i);  // (6) W = k_q ξ
-    out.tip_joints.AddRigidly({Vector3d::Zero(), out.spring(i) * z}, kin.tip - kin.p[i]);
   }
   return out;
+}
+
+/// Tool point, from the springs alone.
+template <int N>
+Deflection TipBySprings(const Kinematics<N>& kin, const SerialDeflections<N>& serial) {
+  Deflection tip;
+  for (int i = N - 1; i >= 0; --i)
+    tip.AddRigidly({Eigen::Vector3d::Zero(), serial.spring(i) * kin.R[i].col(2)}, kin.tip - kin.p[i]);
+  return tip;
 }
 
 enum class JointModel { kRigid, kElastic };
@@ -108,7 +128,7 @@ FixedArray<Deflection, 2 * N> NodeDeflections(const ArmModel<N, P>& arm, const K
     move_to(kin.p[i]);
     if (joints == JointModel::kElastic) at.phi += serial.spring(i) * kin.R[i].col(2);
     for (; j < arm.num_members && arm.member[j].link == i; ++j) {
-      move_to(kin.p[i] + arm.member[j].end_at * kin.R[i].col(arm.member[j].axis));
+      move_to(LineOf(arm.member[j], kin.R[i], kin.p[i]).end);
       at.u += serial.member[j].u;
       at.phi += serial.member[j].phi;
       node[j] = at;

@@ -36,16 +36,18 @@ struct MassOnMember {
 };
 
 inline MassOnMember LayOnMember(const MassMoments& body, const Member& beam) {
-  const int t = beam.axis;
-  const double s = beam.start_at, L = beam.length;
-  const double mu1 = beam.sign() * (body.h(t) - body.m * s);
-  const double mu2 = body.J(t, t) - 2.0 * s * body.h(t) + s * s * body.m;
+  const Eigen::Vector3d& t = beam.t;
+  const Eigen::Matrix3d& J = body.J;
+  const double s = beam.start_along, L = beam.length, h_t = t.dot(body.h);
+  const double J_tt = beam.tt(0) * J(0, 0) + beam.tt(1) * J(1, 1) + beam.tt(2) * J(2, 2) +
+                      beam.tt(3) * J(0, 1) + beam.tt(4) * J(0, 2) + beam.tt(5) * J(1, 2);
+  const double mu1 = h_t - s * body.m;
+  const double mu2 = J_tt - 2.0 * s * h_t + s * s * body.m;
   MassOnMember mass;
   mass.spread = 6.0 * (mu1 / L - mu2 / (L * L));
   mass.end = mu1 / L - 0.5 * mass.spread;
   mass.start = body.m - mass.spread - mass.end;
-  mass.off_axis = body.h;
-  mass.off_axis(t) = 0.0;
+  mass.off_axis = body.h - body.m * beam.start - mu1 * t;
   return mass;
 }
 

@@ -15,14 +15,22 @@ ARM_RGB, GHOST_RGB, WALL_RGB, FORCE_RGB, TRACE_RGB = (214, 94, 0), (150, 150, 15
 
 
 def centre_line(arm: dict, q: np.ndarray) -> np.ndarray:
-    """Rigid arms for many poses, [n, 2 dof + 2, 3]: from each link to the next joint, then along its axis, at last the tool point."""
+    """Rigid arms for many poses, [n, points, 3]: from each link to the next joint, then along its axis or its members, at last
+    the tool point."""
     at = poses(arm, q)
     R, p = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3))
     points = [p + transform_of(arm.get("base", {}))[1]]
     for joint, mount in enumerate(mounts(arm)):
-        points += [p + R @ mount.p, at.p[joint]]
+        points.append(p + R @ mount.p)
         R, p = at.R[joint], at.p[joint]
+        points += [p + R @ end for end in member_ends(arm, joint)] or [p]
     return np.stack([*points, p + R @ chain_of(arm).tool_offset], axis=1)
+
+
+def member_ends(arm: dict, joint: int) -> list[np.ndarray]:
+    """Of the members of the link that this joint moves, base to tip, in the link's frame."""
+    return [np.array(member.get(end, [0.0, 0.0, 0.0]), dtype=float) for member in arm.get("member", []) if member["link"] == joint + 1
+            for end in ("from_m", "to_m")]
 
 
 def joint_transforms(arm: dict, q: np.ndarray) -> list[tuple[str, tuple, tuple]]:

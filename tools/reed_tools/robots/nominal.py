@@ -89,7 +89,7 @@ def of_table(arm: dict, where: str) -> NominalArm:
     return NominalArm(arm.get("name", "arm"), chain, *per_joint.values(), known=known(arm, shapes, names, chain.dof), names=names, p=p,
                       p_lo=p_lo, p_hi=p_hi, shapes=shapes, viscous=viscous,
                       coulomb=per_joint_numbers(arm, "coulomb_nominal", chain.dof, 0.0), coulomb_declared=per_joint_numbers(arm, "coulomb_declared", chain.dof, 0.0),
-                      bends=bool(arm.get("sections")))
+                      bends=bool(arm.get("sections") or arm.get("member")))
 
 
 DEFAULTS = {"rotor_inertia_reflected": 0.0, "joint_stiffness": np.inf, "torque_limit": np.inf, "position_min": -2.9,

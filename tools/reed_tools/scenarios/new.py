@@ -117,7 +117,7 @@ limit = 4.0
 
 
 def plant(arm: NominalArm) -> str:
-    return "" if arm.bends else "\n[plant]\nflexible_links = false   # the arm file has no sections\n"
+    return "" if arm.bends else "\n[plant]\nflexible_links = false   # the arm file has no members\n"
 
 
 def row(values) -> str:
