@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reed_tools.arms.rules import GRAVITY_mps2, MASS_BOX, PAYLOAD_RADIUS_m, Assumed, assumed
+from reed_tools.arms.rules import BENT_AT_LIMIT_rad, GRAVITY_mps2, MASS_BOX, PAYLOAD_RADIUS_m, Assumed, assumed, tubes
 from reed_tools.arms.serial import Serial
 from reed_tools.robots.chain import rpy_of
 from reed_tools.robots.pseudo_inertia import body_parts
@@ -27,21 +27,30 @@ def frame(R: np.ndarray, p: np.ndarray) -> str:
     return f"xyz_m = {row(p)}\nrpy_rad = {row(rpy_of(R))}\n"
 
 
-def text_of(serial: Serial, name: str, source: str) -> str:
+def text_of(serial: Serial, name: str, source: str, flexible: bool = False) -> str:
     more = assumed(serial)
-    parts = [head(serial, name, source), drives(serial, more), parameters(serial, more), "[tool]\n" + frame(serial.tool_rotation, serial.tool_offset)]
+    parts = [head(serial, name, source, flexible), drives(serial, more), parameters(serial, more), "[tool]\n" + frame(serial.tool_rotation, serial.tool_offset)]
     parts += [f'[[joint]]\nname = "{joint.name}"\nframe = "{joint.frame}"\n' + frame(joint.rotation, joint.offset) for joint in serial.joints]
+    parts += members(serial) if flexible else []
     parts += ["# Nothing of a link is known: each is its mass times what a unit of it has, below.\n" + "\n".join([MASSLESS] * len(serial.joints))]
     parts += shapes(serial, more)
     parts.append(f"# The simulated arm's own.\n[truth]\ncoulomb = {row(more.coulomb)}{mark(more.given[0])}\n")
     return "\n".join(parts)
 
 
-def head(serial: Serial, name: str, source: str) -> str:
+def head(serial: Serial, name: str, source: str, flexible: bool) -> str:
     held = f"# Joints beside the chain, held at 0: {', '.join(serial.held)}.\n" if serial.held else ""
-    return (f"# {name}: made from {source} by `tools/reed arm import`, base {serial.base}, tip {serial.tip}. Links are rigid.\n{held}"
+    return (f"# {name}: made from {source} by `tools/reed arm import`, base {serial.base}, tip {serial.tip}.{'' if flexible else ' Links are rigid.'}\n{held}"
             f"# SI units, radians. Keys: config/README.md. What a URDF does not say is marked: # assumed.\n"
             f'name = "{name}"\ngravity = {row(GRAVITY_mps2)}   # base frame, z up: assumed\n')
+
+
+def members(serial: Serial) -> list[str]:
+    found = [f'[[member]]   # assumed: {serial.joints[tube.link].frame}\nlink = {tube.link + 1}\nto_m = {row(tube.to)}\n'
+             f'tube = {{outer = {number(tube.outer)}, wall = {number(tube.wall)}, material = "aluminium"}}\n' for tube in tubes(serial)]
+    rule = (f"# Links bend as tubes from joint to joint, assumed: by {1e3 * BENT_AT_LIMIT_rad:g} mrad at the end under the joint's torque limit. Rigid without\n"
+            "# these tables.\n")
+    return [rule + found[0], *found[1:]] if found else []
 
 
 def mark(given: np.ndarray) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from reed_tools.errors import UsageError
 from reed_tools.paths import program
-from reed_tools.robots import nominal
+from reed_tools.robots import arm_lines, nominal
 from reed_tools.robots.chain import Chain, frames_of
 from reed_tools.show.drawing import STYLE, plt
 
@@ -56,7 +56,7 @@ def draw(name: str, at: str | None, target: Path | None) -> Path:
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(7.5, 7.0), layout="constrained")
         axis = figure.add_subplot(projection="3d")
-        axis.plot(*points.T, color="0.55", linewidth=2.5, label="from frame to frame")
+        axis.plot(*arm_lines.centre_line(nominal.read(path), q[None])[0].T, color="0.55", linewidth=2.5, label="without load")
         if shape := bent(path, q):
             rest, under = shape
             largest = float(np.linalg.norm(under - rest, axis=1).max())

@@ -12,11 +12,24 @@ ROTOR_kgm2_PER_Nm = 0.006     # reflected inertia per torque limit: 170 rad/s² 
 STIFFNESS_PER_rad = 200.0     # per torque limit: 5 mrad of twist at the limit
 COULOMB_SHARE = 0.01          # of the torque limit
 VISCOUS_SHARE_s = 0.003       # of the torque limit, per rad/s
+BENT_AT_LIMIT_rad = 0.001     # a link at its end, under the torque limit of its joint: a fifth of what the joint twists
+ALUMINIUM_Pa = 70e9           # as config/schema/tube.h has it
+WALL_SHARE = 0.05             # of a tube's diameter
+SHORTEST_m = 0.02             # between joints; nearer ones have one housing, which is rigid
 MASS_BOX = (0.5, 1.5)         # of the URDF's masses
 PAYLOAD_SHARE = 0.5           # of what the joints can hold beside the links
 LEAST_PAYLOAD_kg, PAYLOAD_RADIUS_m = 0.05, 0.04
 GRAVITY_mps2 = (0.0, 0.0, -9.81)
 POSES, SEED = 400, 3
+
+
+@dataclass(frozen=True)
+class AssumedTube:
+    """From a joint to the next one."""
+    link: int           # 0-based
+    to: np.ndarray      # m, link frame
+    outer: float        # m
+    wall: float
 
 
 @dataclass(frozen=True)
@@ -35,6 +48,19 @@ def assumed(serial: Serial) -> Assumed:
     coulomb = [joint.friction if known else COULOMB_SHARE * joint.effort for joint, known in zip(serial.joints, given[0])]
     viscous = [joint.damping if known else VISCOUS_SHARE_s * joint.effort for joint, known in zip(serial.joints, given[1])]
     return Assumed(ROTOR_kgm2_PER_Nm * limit, STIFFNESS_PER_rad * limit, np.array(coulomb), np.array(viscous), payload(serial), given)
+
+
+def tubes(serial: Serial) -> list[AssumedTube]:
+    """What bends of an imported arm. The last link holds the tool and is rigid."""
+    found = []
+    for link, (joint, after) in enumerate(zip(serial.joints, serial.joints[1:])):
+        length = float(np.linalg.norm(after.offset))
+        if length < SHORTEST_m:
+            continue
+        EI = joint.effort * length / BENT_AT_LIMIT_rad
+        outer = float((64 * EI / (np.pi * ALUMINIUM_Pa * (1 - (1 - 2 * WALL_SHARE) ** 4))) ** 0.25)
+        found.append(AssumedTube(link, after.offset, round(outer, 5), round(WALL_SHARE * outer, 5)))
+    return found
 
 
 def chain_of(serial: Serial) -> Chain:
