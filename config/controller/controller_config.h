@@ -90,6 +90,17 @@ struct LimitConfig {
   double contact_force_N = 60.0;
   int hold_age_cycles = 2;   // measurements up to this age: go on with the last value
   int stop_age_cycles = 10;  // older: ramp the torque down; twice this: fault
+  // Of the monitors of the devices (core/safety/monitors.h); shares of the arm's torque and speed limits.
+  double torque_error_share = 0.1;
+  double speed_error_share = 0.05;
+  double unexplained_torque_share = 0.1;
+  double following_error_share = 0.1;
+  double stuck_rad = 0.02;
+  double standstill_rad = 0.01;
+  double tip_speed_mps = 0.0;  // 0: none
+  double power_W = 0.0;        // 0: none
+  double energy_J = 0.0;       // 0: none
+  bool monitors = true;        // false: nothing trips
 };
 
 struct ControllerConfig {

@@ -241,6 +241,29 @@ void Fields(V& v, LimitConfig& c) {
             "measurements up to this age are used as they are");
   v.Integer("stop_age_cycles", c.stop_age_cycles, {"1", 1, 1000},
             "older: torque ramps down; twice this age: fault");
+  v.Number("torque_error_share", c.torque_error_share, {"1", 1e-3, 1e6},
+           "a drive that reports a torque that differs from the asked one by more, of the arm's torque "
+           "limit, for 15 cycles: trip");
+  v.Number("speed_error_share", c.speed_error_share, {"1", 1e-3, 1e6},
+           "a speed that contradicts the angle by more, of the arm's speed limit, for 5 cycles: trip");
+  v.Number("unexplained_torque_share", c.unexplained_torque_share, {"1", 1e-3, 1e6},
+           "a joint's observed torque that neither the model nor the force sensor explains, beyond this "
+           "share of the arm's torque limit and twice the declared Coulomb friction, for 3 cycles: trip");
+  v.Number(
+      "following_error_share", c.following_error_share, {"1", 1e-3, 1e6},
+      "a joint's speed that differs from the law's by more, of the arm's speed limit, for 5 cycles: trip");
+  v.Number("stuck_rad", c.stuck_rad, {"rad", 1e-3, 1e6},
+           "a joint that shall move by more and whose angle does not change by 1 mrad: trip");
+  v.Number("standstill_rad", c.standstill_rad, {"rad", 1e-4, 1e6},
+           "a joint that moves by more while the brakes are to be closed: trip");
+  v.Number("tip_speed_mps", c.tip_speed_mps, {"m/s", 0, 100},
+           "speed of the tool point that trips, near people; 0: none");
+  v.Number("power_W", c.power_W, {"W", 0, 1e6}, "power of all motors that trips, near people; 0: none");
+  v.Number("energy_J", c.energy_J, {"J", 0, 1e6},
+           "kinetic energy of arm and rotors that trips, near people; 0: none");
+  v.Boolean("monitors", c.monitors,
+            "false: the controller stops for nothing, so that a bench can measure how long a hazard takes; "
+            "lockstep only");
 }
 
 template <typename V>

@@ -83,6 +83,13 @@ void Visit(Visitor<Each>& visit, protect::LimitValues<N>& v) {
 }
 
 template <typename Each>
+void Visit(Visitor<Each>& visit, protect::MonitorValues<N>& v) {
+  visit.All(v.torque_allowed, v.speed_allowed, v.explained_allowed, v.following_allowed, v.observer_gain,
+            v.stuck_rad, v.frozen_rad, v.standstill_rad, v.wrench_noisy, v.velocity_filter_hz,
+            v.people.tip_speed, v.people.power, v.people.energy);
+}
+
+template <typename Each>
 void VisitSettings(Each each, Settings<N, P>& s) {
   Visitor<Each> visit(each);
   Visit(visit, s.arm);
@@ -93,7 +100,8 @@ void VisitSettings(Each each, Settings<N, P>& s) {
   visit.All(s.source, s.normal, s.reach_m, s.force_noise_N, s.wall_present, s.compensate_deflection,
             s.velocity_filter_hz);
   Visit(visit, s.limits);
-  visit.All(s.rate_hz, s.duration_s, s.start_wanted);
+  Visit(visit, s.monitors);
+  visit.All(s.monitored, s.rate_hz, s.duration_s, s.start_wanted);
 }
 
 }  // namespace reed::embedded

@@ -7,6 +7,7 @@
 #include "reed/core/events.h"
 #include "reed/core/measurement.h"
 #include "reed/core/safety/limits.h"
+#include "reed/core/safety/monitors.h"
 #include "reed/core/safety/supervisor.h"
 #include "reed/core/safety/watch.h"
 #include "reed/core/separated.h"
@@ -32,6 +33,7 @@ class Controller {
         limits_(settings_.limits),
         supervisor_(settings_.start_wanted),
         watch_(settings_.period_s()),
+        monitors_(settings_.monitors, settings_.period_s()),
         T_(settings_.period_s()) {}
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
@@ -39,11 +41,10 @@ class Controller {
   /// One period: estimate, decide, control, protect.
   const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
     events_.Clear();
-    check_ = watch_.CheckState(measured, state, supervisor_, limits_, source_,
-                               ContactForce(measured));                // estimate
+    check_ = Watch(measured, state);                                   // estimate
     Decide(measured, state);                                           // decide
     const strategy::Decision<N>& decision = Control(measured, state);  // control
-    command_.torque = Protect(decision, measured);                     // protect: the last gate
+    command_.torque = Protect(decision, measured, state);              // protect: the last gate
     command_.request = supervisor_.Request();
     NoteDecision(decision);
     was_active_ = was_active_ || active();
@@ -77,6 +78,14 @@ class Controller {
     return strategy_.ContactForce(measured, !limits_.TooOld(measured.wrench_age));
   }
 
+  protect::LimitCheck Watch(const Measurement<N>& measured, const CycleState& state) noexcept {
+    if (!settings_.monitored) return {};
+    const protect::LimitCheck check =
+        watch_.CheckState(measured, state, supervisor_, limits_, source_, ContactForce(measured));
+    const protect::LimitCheck rest = monitors_.AtRest(measured, supervisor_.mode() == mode::Mode::kReady);
+    return check.trip != protect::Reason::kNone ? check : rest;
+  }
+
   void Decide(const Measurement<N>& measured, const CycleState& state) noexcept {
     mode::Observation seen;
     seen.all_fresh = state.all_answered && measured.OldestAge() == 0;
@@ -104,11 +113,14 @@ class Controller {
     return *decision_;
   }
 
-  model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured) noexcept {
+  model::Vec<N> Protect(const strategy::Decision<N>& decision, const Measurement<N>& measured,
+                        const CycleState& state) noexcept {
+    if (!active()) monitors_.Reset(measured);
     if (supervisor_.Request() != DriveRequest::kEnable) return limits_.Release();
     const bool no_trip = check_.trip == protect::Reason::kNone;
     model::Vec<N> tau = limits_.Apply(decision.tau_law, measured.OldestAge(), check_);
-    if (no_trip && active() && decision.force.lost) {
+    if (no_trip && active() && settings_.monitored) Monitor(decision, measured, state, tau);
+    if (no_trip && active() && decision.force.lost && settings_.monitored) {
       check_ = {protect::Reason::kStretched, -1, decision.normal.D.norm(), check_.limits};
       tau = limits_.Release();
     }
@@ -121,6 +133,26 @@ class Controller {
     if (decision.force.speed_limited) check_.limits |= protect::LimitBit(protect::Reason::kNormalSpeed);
     if (decision.force.held) check_.limits |= protect::LimitBit(protect::Reason::kStretch);
     return tau;
+  }
+
+  /// Of the devices: a finding stops the arm in this cycle.
+  void Monitor(const strategy::Decision<N>& decision, const Measurement<N>& measured, const CycleState& state,
+               model::Vec<N>& tau) noexcept {
+    const bool sensed = strategy_.tared() && !limits_.TooOld(measured.wrench_age);
+    const protect::Observed<N> seen{.J = strategy_.jacobian(),
+                                    .s = decision.s,
+                                    .r = strategy_.observed(),
+                                    .sent = tau,
+                                    .energy = strategy_.kinetic_energy(),
+                                    .felt = decision.felt,
+                                    .force_known = decision.source == strategy::ForceSource::kKnown,
+                                    .explainable = sensed && strategy_.law().smooth,
+                                    .follows = strategy_.law().follows,
+                                    .gap = state.gap || state.hold};
+    const protect::LimitCheck found = monitors_.Moving(measured, seen);
+    if (found.trip == protect::Reason::kNone || check_.trip != protect::Reason::kNone) return;
+    check_ = {found.trip, found.joint, found.value, check_.limits};
+    tau = limits_.Release();
   }
 
   void NoteDecision(const strategy::Decision<N>& decision) noexcept {
@@ -158,6 +190,7 @@ class Controller {
   protect::Limits<N> limits_;
   mode::Supervisor supervisor_;
   protect::Watch<N> watch_;
+  protect::Monitors<N> monitors_;
   double T_;
   const strategy::Decision<N>* decision_ = nullptr;
   protect::LimitCheck check_;

@@ -116,7 +116,11 @@ class Separated {
   }
 
   const AdaptiveState<N, P>& adaptive() const noexcept { return adaptive_; }
+  const LawTraits& law() const noexcept { return law_; }
+  /// J at the measured angles; rows 0 to 2: of the tool point.
+  const model::Mat<6, N>& jacobian() const noexcept { return kin_.J; }
   const model::Vec<N>& observed() const noexcept { return disturbance_.r(); }
+  double kinetic_energy() const noexcept { return disturbance_.kinetic_energy(); }  // J
   const control::ForceState& force_state() const noexcept { return force_.state(); }
   double wall_stiffness() const noexcept { return force_.wall_stiffness(); }  // k̂_e (51), N/m
   const Eigen::Vector3d& normal() const noexcept { return normal_; }

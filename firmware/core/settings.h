@@ -8,6 +8,7 @@
 #include "reed/core/model/arm_model.h"
 #include "reed/core/reference/force_profile.h"
 #include "reed/core/safety/limits.h"
+#include "reed/core/safety/monitors.h"
 #include "reed/law_names/law_names.h"
 
 namespace reed {
@@ -27,6 +28,8 @@ struct Settings {
   bool compensate_deflection = false;                 // θ_d after the static deflection (22)
   double velocity_filter_hz = 120.0;                  // of the drives
   protect::LimitValues<N> limits;
+  protect::MonitorValues<N> monitors;
+  bool monitored = true;  // false: nothing trips, for a bench that measures how long a hazard takes
   double rate_hz = 1000.0;
   double duration_s = 0.0;    // from the moment the arm is active
   bool start_wanted = false;  // the operator's wish to open the brakes

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "reed/bus/codec/wire_time.h"
+#include "reed/config/description/config_error.h"
 #include "reed/firmware/cycle/make_cycle.h"
 #include "reed/firmware/law_plugin/law_plugin.h"
 #include "reed/firmware/program/real_time_run.h"
@@ -115,6 +116,9 @@ LoopOptions PlanLoop(const ControllerConfig& scenario) {
 
 int ControlArm(const ControlOptions& options, const ControllerConfig& scenario,
                const std::string& config_text, const LoopOptions& loop, bus::Transport& transport) {
+  if (!scenario.limits.monitors && options.clock == rt::ClockKind::kRealtime)
+    throw ConfigError(
+        "limits.monitors: false is for a bench in lockstep; no arm moves without its monitors on the clock");
   const std::unique_ptr<LawPlugin> plugin = OpenLaw(options.law, scenario);
   const std::unique_ptr<CycleBase> cycle =
       MakeCycle(scenario, transport, options.enable, plugin != nullptr ? &plugin->law() : nullptr);

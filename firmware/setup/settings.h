@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -75,6 +77,31 @@ protect::LimitValues<N> LimitsFrom(const ControllerConfig& scenario, const model
   return v;
 }
 
+template <int N, int P>
+protect::MonitorValues<N> MonitorsFrom(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm) {
+  constexpr double kFrozenShare = 0.2;
+  constexpr double kSteps = 4.0;     // of an encoder: a slow joint stays on one until it comes to the next
+  constexpr double kReversal = 2.0;  // Coulomb friction changes by twice itself where a joint turns round
+  const LimitConfig& limits = scenario.limits;
+  const SensorData& sensors = scenario.sensors;
+  const double least_rad = kSteps * std::ldexp(2.0 * std::numbers::pi, -sensors.encoder_bits);
+  protect::MonitorValues<N> v;
+  v.torque_allowed = limits.torque_error_share * arm.torque_limit;
+  v.speed_allowed = limits.speed_error_share * arm.speed_limit;
+  v.explained_allowed = limits.unexplained_torque_share * arm.torque_limit;
+  const std::vector<double>& coulomb = scenario.arm.coulomb_declared_Nm;
+  if (!coulomb.empty()) v.explained_allowed += kReversal * Eigen::Map<const model::Vec<N>>(coulomb.data());
+  v.following_allowed = limits.following_error_share * arm.speed_limit;
+  v.observer_gain = scenario.control.observer_gain;
+  v.stuck_rad = std::max(limits.stuck_rad, least_rad);
+  v.frozen_rad = std::max(kFrozenShare * limits.stuck_rad, least_rad);
+  v.standstill_rad = limits.standstill_rad;
+  v.wrench_noisy = sensors.force_noise_N > 0.0 && sensors.force_noise_N >= 0.5 * sensors.force_quantum_N;
+  v.velocity_filter_hz = sensors.velocity_filter_hz;
+  v.people = {limits.tip_speed_mps, limits.power_W, limits.energy_J};
+  return v;
+}
+
 }  // namespace internal
 
 template <int N, int P>
@@ -93,6 +120,10 @@ Settings<N, P> SettingsFrom(const ControllerConfig& scenario, bool start_wanted)
   s.compensate_deflection = scenario.control.nodal_compensation;
   s.velocity_filter_hz = scenario.sensors.velocity_filter_hz;
   s.limits = internal::LimitsFrom(scenario, s.arm);
+  s.monitors = internal::MonitorsFrom(scenario, s.arm);
+  s.monitored = scenario.limits.monitors;
+  constexpr int kAnyAge = 1'000'000;  // without monitors a measurement may be of any age
+  if (!s.monitored) s.limits.hold_age = s.limits.stop_age = kAnyAge;
   s.rate_hz = scenario.timing.rate_hz;
   s.duration_s = scenario.duration_s;
   s.start_wanted = start_wanted;

@@ -115,6 +115,24 @@ TEST(Protect, BeyondTheHoldAgeTheLastTorqueStays) {
   }
 }
 
+TEST(Protect, ATorqueIsNotHeldForEverWhereEveryMeasurementComesLate) {
+  Gate gate;
+  gate.Reach(20.0, 4.0);
+  for (int cycle = 1; cycle <= 2 * kStop; ++cycle) {
+    EXPECT_EQ(gate.Apply(1.0, 1.0, kHold + 1), Vec2(20.0, 4.0)) << cycle;
+    EXPECT_EQ(gate.check.trip, Reason::kNone);
+  }
+  EXPECT_EQ(gate.Apply(1.0, 1.0, kHold + 1), Vec2(0.0, 0.0));
+  EXPECT_EQ(gate.check.trip, Reason::kStaleMeasurement);
+  EXPECT_EQ(gate.check.value, kHold + 1);
+
+  Gate sometimes;
+  for (int cycle = 0; cycle < 10 * kStop; ++cycle) {
+    sometimes.Apply(1.0, 1.0, cycle % kStop == 0 ? 0 : kHold + 1);
+    EXPECT_EQ(sometimes.check.trip, Reason::kNone) << cycle;
+  }
+}
+
 TEST(Protect, BeyondTheStopAgeTheTorqueFallsInEqualStepsToZeroAtTwiceTheStopAge) {
   Gate gate;
   gate.Reach(20.0, -4.0);
@@ -197,6 +215,16 @@ TEST(Reason, NumbersAreFixedForEver) {
                                             {Reason::kStaleWrench, 43},
                                             {Reason::kWrenchRange, 45},
                                             {Reason::kStretched, 46},
+                                            {Reason::kTorqueNotDelivered, 47},
+                                            {Reason::kSpeedContradicts, 48},
+                                            {Reason::kJointDoesNotFollow, 49},
+                                            {Reason::kFrozenWrench, 50},
+                                            {Reason::kTipSpeed, 51},
+                                            {Reason::kPower, 52},
+                                            {Reason::kNotAtStandstill, 53},
+                                            {Reason::kTorqueUnexplained, 54},
+                                            {Reason::kFollowingError, 55},
+                                            {Reason::kEnergy, 56},
                                             {Reason::kForceZero, 8},
                                             {Reason::kStretchHeld, 9},
                                             {Reason::kCommandCut, 10},
@@ -213,8 +241,9 @@ TEST(Reason, NumbersAreFixedForEver) {
 }
 
 TEST(Reason, EveryKnownNumberHasItsOwnTextAndTheOthersSayUnknown) {
-  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 32, 33, 34, 35,  36,
-                            37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 96, 97, 98, 99, 100, 101};
+  const std::set<int> known{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 32, 33,  34,
+                            35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47,  48,
+                            49, 50, 51, 52, 53, 54, 55, 56, 96, 97, 98, 99, 100, 101};
   std::set<std::string> texts;
   for (int code = -5; code < 300; ++code) {
     if (known.contains(code)) {

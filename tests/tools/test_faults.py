@@ -21,7 +21,7 @@ def number(name: str) -> int:
 
 
 def row_of(name: str, phase: str = "pressing") -> Row:
-    return cell.run(STANDARD, Cell("press_known", number(name), phase, 1), [])
+    return cell.run(STANDARD, (), Cell("press_known", number(name), phase, 1), [])
 
 
 def refused(text: str) -> str:

@@ -36,6 +36,7 @@ class DisturbanceEstimate {
   void Update(const Measurement<N>& measured, const model::Kinematics<N>& kin, const model::Vec<N>& kappa,
               double friction_speed) noexcept {
     const model::MomentumModel<N> m = Momentum(kin, measured.theta_dot);
+    kinetic_energy_ = 0.5 * m.momentum.dot(measured.theta_dot);
     const model::Vec<N> friction = viscous_.cwiseProduct(measured.theta_dot) +
                                    control::CoulombTorque<N>(kappa, measured.theta_dot, friction_speed);
     // The measured speed is filtered in the drive, so the known rate goes through the same filter: else every
@@ -48,7 +49,8 @@ class DisturbanceEstimate {
     gap_ = false;
   }
 
-  const model::Vec<N>& r() const noexcept { return observer_.r(); }  // N·m
+  const model::Vec<N>& r() const noexcept { return observer_.r(); }   // N·m
+  double kinetic_energy() const noexcept { return kinetic_energy_; }  // ½ pᵀ θ̇ of arm and rotors, J
   const model::Bodies<N>& nominal() const noexcept { return nominal_; }
 
  private:
@@ -65,6 +67,7 @@ class DisturbanceEstimate {
   model::Vec<N> viscous_;
   double rate_share_;                           // of the drives' velocity filter, per cycle
   model::Vec<N> rate_ = model::Vec<N>::Zero();  // known part of the momentum's rate, filtered, N·m
+  double kinetic_energy_ = 0.0;
   bool gap_ = false;
 };
 

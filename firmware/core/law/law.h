@@ -43,6 +43,8 @@ struct LawTraits {
   bool force_loop = false;          // the force error enters v (30)
   bool acceleration = false;        // v, v̇ are θ̇ and ComputedAcceleration: computed torque
   bool deflection_allowed = false;  // θ_d may be corrected by the static deflection
+  bool follows = false;             // no standing error: a joint has the speed v (monitors 49 and 55)
+  bool smooth = false;  // no ripple: the observer sees what the model has wrong, and no more (monitor 54)
   GainSet gains = GainSet::kScenario;
 };
 

@@ -20,7 +20,8 @@ class LawBank {
 
  private:
   static constexpr Law<N, P> External(bool force_loop, bool deflection) {
-    return LawOf<ExternalRow<N, P>, N, P>({.force_loop = force_loop, .deflection_allowed = deflection});
+    return LawOf<ExternalRow<N, P>, N, P>(
+        {.force_loop = force_loop, .deflection_allowed = deflection, .smooth = true});
   }
   // By the traits of reed/law.h.
   static constexpr std::array<Law<N, P>, 4> kExternalLaws{External(false, false), External(true, false),

@@ -7,7 +7,7 @@ namespace reed::strategy::laws {
 
 template <int N, int P>
 struct PdTuned : Pd<N, P> {
-  static constexpr LawTraits kTraits{};
+  static constexpr LawTraits kTraits{.smooth = true};
 };
 
 }  // namespace reed::strategy::laws

@@ -9,7 +9,8 @@ namespace reed::strategy::laws {
 template <int N, int P>
 struct Separated : LawBase<N, P> {
   using typename LawBase<N, P>::In, typename LawBase<N, P>::State, typename LawBase<N, P>::V;
-  static constexpr LawTraits kTraits{.force_loop = true, .deflection_allowed = true};
+  static constexpr LawTraits kTraits{
+      .force_loop = true, .deflection_allowed = true, .follows = true, .smooth = true};
 
   static V Known(const In& in, const State& x) noexcept {
     return KnownForceOf(in, x.p_hat) + SlidingOf(in, x) + Friction(in, x);

@@ -56,11 +56,18 @@ class Limits {
   bool TooOld(int age) const noexcept { return age > 2 * limit_.stop_age; }
 
   /// The torque that may be sent instead of `tau_law`. Measurements beyond hold_age: the last torque is held;
-  /// beyond stop_age: it ramps down to zero over stop_age more cycles. Not finite: trip, torque zero.
+  /// beyond stop_age: it ramps down to zero over stop_age more cycles. Held for twice stop_age, because every measurement
+  /// comes too late: trip, as with a measurement of that age. Not finite: trip, torque zero.
   Vec<N> Apply(const Vec<N>& tau_law, int oldest_age, LimitCheck& check) noexcept {
     for (int i = 0; i < N; ++i) {
       if (std::isfinite(tau_law[i])) continue;
       check = {Reason::kNotFinite, i, tau_law[i], 0};
+      return Release();
+    }
+
+    held_cycles_ = oldest_age > limit_.hold_age ? held_cycles_ + 1 : 0;
+    if (held_cycles_ > 2 * limit_.stop_age) {
+      check = {Reason::kStaleMeasurement, -1, static_cast<double>(oldest_age), check.limits};
       return Release();
     }
 
@@ -88,6 +95,7 @@ class Limits {
   Vec<N> Release() noexcept {
     sent_.setZero();
     held_.setZero();
+    held_cycles_ = 0;
     return sent_;
   }
 
@@ -95,6 +103,7 @@ class Limits {
   LimitValues<N> limit_;
   Vec<N> sent_ = Vec<N>::Zero();
   Vec<N> held_ = Vec<N>::Zero();  // the last torque before the measurements became too old
+  int held_cycles_ = 0;           // in a row with measurements beyond hold_age
 };
 
 }  // namespace reed::protect

@@ -32,10 +32,20 @@ enum class Reason : std::int32_t {
   kBusLost = 40,
   kOperator = 41,
   kUnexpectedJoint = 42,
-  kPhaseBudgetInRow = 44,
   kStaleWrench = 43,
+  kPhaseBudgetInRow = 44,
   kWrenchRange = 45,
   kStretched = 46,
+  kTorqueNotDelivered = 47,
+  kSpeedContradicts = 48,
+  kJointDoesNotFollow = 49,
+  kFrozenWrench = 50,
+  kTipSpeed = 51,
+  kPower = 52,
+  kNotAtStandstill = 53,
+  kTorqueUnexplained = 54,
+  kFollowingError = 55,
+  kEnergy = 56,
   // limits that act
   kTorque = 96,
   kTorqueRate = 97,
@@ -106,6 +116,29 @@ constexpr const char* Text(int code) noexcept {
              "reading, N";
     case Reason::kStretched:
       return "the arm cannot press in this pose: stretched or folded along the wall's normal, rad/m";
+    case Reason::kTorqueNotDelivered:
+      return "a drive delivers another torque than it was asked, the difference, N·m";
+    case Reason::kSpeedContradicts:
+      return "a joint's speed contradicts its angle, the difference, rad/s";
+    case Reason::kJointDoesNotFollow:
+      return "a joint shall move and its angle stands still: a closed brake, a stuck encoder or an obstacle, "
+             "rad";
+    case Reason::kFrozenWrench:
+      return "the force sensor's reading does not change any more, N";
+    case Reason::kTipSpeed:
+      return "tip speed limit near people, m/s";
+    case Reason::kPower:
+      return "power limit near people, W";
+    case Reason::kEnergy:
+      return "energy limit near people, J";
+    case Reason::kNotAtStandstill:
+      return "the arm moves although its brakes are to be closed, rad";
+    case Reason::kTorqueUnexplained:
+      return "a joint has torque that neither the model nor the force sensor explains: a drive, an encoder, "
+             "the "
+             "sensor, or a collision, N·m";
+    case Reason::kFollowingError:
+      return "a joint does not have the speed that the law asks for, rad/s";
     case Reason::kPhaseBudgetInRow:
       return "a phase was longer than its budget in too many cycles in a row";
     case Reason::kTorque:

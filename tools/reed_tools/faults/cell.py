@@ -1,4 +1,5 @@
-"""One cell of the matrix, in a worker: a fault in a phase of a scenario with a seed, beside the same run without the fault."""
+"""One cell of the matrix, in a worker: a fault in a phase of a scenario with a seed; the same run without the fault, and without the
+controller's monitors."""
 
 import functools
 import shlex
@@ -34,8 +35,10 @@ class Row:
     fdti_ms: float | None = None   # fault to detection
     frti_ms: float | None = None   # detection to the safe state: brakes closed, motors at rest
     fhti_ms: float | None = None   # their sum
-    ftti_ms: float | None = None   # fault to hazard, on this bench, where it is reached
-    hazard: str | None = None
+    ftti_ms: float | None = None   # fault to hazard with the monitors off, on this bench
+    margin_ms: float | None = None  # ftti - fhti
+    hazard: str | None = None      # that is reached although the monitors are on
+    hazard_unmonitored: str | None = None
     force_peak_N: float | None = None
     speed_peak_radps: float | None = None
     torque_step_Nm: float | None = None
@@ -91,8 +94,8 @@ def triggers_of(name: str, seed: int) -> dict[str, dict]:
     return phases.triggers(twin_of(name, seed).course(loses_sensor(effective_of(name))))
 
 
-def run(entries: list[dict], cell: Cell, interrupted: list) -> Row | None:
-    """`entries`: the catalogue. None: interrupted."""
+def run(entries: list[dict], unmonitored: tuple[str, ...], cell: Cell, interrupted: list) -> Row | None:
+    """`entries`: the catalogue. `unmonitored`: overrides that take the controller's monitors away; none: no time to hazard."""
     fault = entries[cell.fault]
     row = Row(fault["id"], fault["kind"], cell.scenario, cell.phase, cell.seed)
     trigger = triggers_of(cell.scenario, cell.seed).get(cell.phase)
@@ -102,17 +105,18 @@ def run(entries: list[dict], cell: Cell, interrupted: list) -> Row | None:
     row.command = command(cell.scenario, cell.seed, overrides[0])
     try:
         done = ended(cell.scenario, overrides, interrupted)
+        bare = ended(cell.scenario, [*overrides, *unmonitored], interrupted) if unmonitored else done
     except (RuntimeError, UsageError) as error:
         row.verdict, row.expected = "refused" if isinstance(error, UsageError) else "died", str(error)
         return row
-    if done is None:
+    if done is None or bare is None:
         return None
-    judge(row, fault, done[1], twin_of(cell.scenario, cell.seed), observed.Bounds.of(effective_of(cell.scenario)))
+    judge(row, fault, done[1], bare[1] if unmonitored else None, twin_of(cell.scenario, cell.seed), observed.Bounds.of(effective_of(cell.scenario)))
     row.digest = done[1].recording.digest("lockstep")
     return row
 
 
-def judge(row: Row, fault: dict, done: observed.Run, twin: observed.Run, bounds: observed.Bounds) -> None:
+def judge(row: Row, fault: dict, done: observed.Run, bare: observed.Run | None, twin: observed.Run, bounds: observed.Bounds) -> None:
     onset = done.fault_begins(0)
     if onset is None:
         return
@@ -121,15 +125,20 @@ def judge(row: Row, fault: dict, done: observed.Run, twin: observed.Run, bounds:
     first = found[0] if found else None
     stop = next((finding for finding in found if finding.stops), None)
     danger = observed.hazard(done, twin, bounds, onset)
+    bare_danger = observed.hazard(bare, twin, bounds, onset) if bare else danger
     row.__dict__.update(observed.largest(done, onset))
-    if danger:
-        row.hazard, row.ftti_ms = danger[1], in_ms(danger[0] - onset)
+    row.hazard = danger[1] if danger else None
+    row.hazard_unmonitored = bare_danger[1] if bare_danger else None
     if first:
         row.detected_by = first.name
         row.fdti_ms = in_ms(first.cycle - onset) if first.cycle is not None else None
     if stop and (safe := observed.safe_from(done, stop.cycle)) is not None:
         row.frti_ms, row.fhti_ms = in_ms(safe - first.cycle), in_ms(safe - onset)
-    row.verdict = f"{'dangerous' if danger else 'safe'} {'detected' if in_time(first, danger, onset) else 'undetected'}"
+    if bare and bare_danger:
+        row.ftti_ms = in_ms(bare_danger[0] - onset)
+        row.margin_ms = round(row.ftti_ms - row.fhti_ms, 3) if row.fhti_ms is not None else None
+    dangerous = danger is not None or bare_danger is not None
+    row.verdict = f"{'dangerous' if dangerous else 'safe'} {'detected' if in_time(first, danger, onset) else 'undetected'}"
     row.expected = disappointed(fault, row)
 
 

@@ -11,13 +11,14 @@ from reed_tools.engine import options as engine_options
 from reed_tools.engine import progress
 from reed_tools.engine.engine import Engine
 from reed_tools.errors import UsageError
-from reed_tools.faults import accepted, catalogue, cell, junit, results
+from reed_tools.faults import accepted, catalogue, cell, junit, requirements, results, safety_page
 from reed_tools.faults.cell import Cell, Row
 from reed_tools.faults.phases import PHASES
 from reed_tools.run import in_memory, scenario
 
 SCENARIOS = ("press_known", "press_sensor_loss", "free_motion")
 MOST_SEEDS = 10_000
+UNMONITORED = ("limits.monitors=false",)  # the same run without the monitors: how long a hazard takes
 OWN_FILES = (results.FILE, junit.FILE, "faults.html")
 EXAMPLE = """examples:
   tools/reed faults press_known --draws 1              # every fault in every phase once
@@ -33,6 +34,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("--phase", action="append", choices=PHASES, help="this phase; repeatable")
     engine_options.add_arguments(parser)
     parser.add_argument("--out", type=folders.argument, metavar="DIR", help="folder; default out/<time>-faults")
+    parser.add_argument("--keep", action="store_true", help="write safety/matrix.jsonl and docs/safety.md, the evidence for the requirements; of the whole matrix")
     parser.add_argument("--json", action="store_true", help="print the content of faults.json, the rest on standard error")
 
 
@@ -44,6 +46,9 @@ def run(arguments) -> int:
     entries = catalogue.load(arguments.faults)
     wanted = [entries.index(entry) for entry in catalogue.chosen(entries, arguments.only)]
     scenarios = arguments.scenarios or list(SCENARIOS)
+    requirements.load()
+    if arguments.keep and (arguments.scenarios or arguments.only or arguments.phase or arguments.faults != catalogue.STANDARD):
+        raise UsageError("--keep: evidence is the whole matrix; leave out SCENARIO, --faults, --only and --phase")
     refuse_early(scenarios, [entries[number] for number in wanted])
     allowed = accepted.load()
     folder = folders.fresh(arguments.out, "faults", OWN_FILES, "a matrix already; choose another folder")
@@ -66,7 +71,7 @@ def matrix(arguments, folder: Path, entries: list[dict], wanted: list[int], scen
     seeds = range(arguments.seed, arguments.seed + arguments.draws)
     cells, alarms = planned(scenarios, seeds, wanted, arguments.phase)
     print(f"faults: {len(wanted)} faults, {len(cells)} cells of {', '.join(scenarios)}, {engine_options.place(arguments)}", flush=True)
-    one = functools.partial(cell.run, entries)
+    one = functools.partial(cell.run, entries, UNMONITORED)
     rows = []
     with (Engine(min(engine_options.jobs(arguments), len(cells)), arguments.scheduler) as engine,
           progress.shown("faults", CellTally(len(cells))) as on_row):
@@ -78,6 +83,9 @@ def matrix(arguments, folder: Path, entries: list[dict], wanted: list[int], scen
     result = results.build(rows, alarms, len(scenarios) * len(seeds), allowed, {"scenarios": scenarios, "seeds": list(seeds), "build": in_memory.build()})
     results.write(folder, result)
     junit.write(folder, result)
+    if arguments.keep:
+        requirements.keep(result["rows"])
+        safety_page.write()
     from reed_tools.faults import page
 
     path = page.write(folder, result, command_of(arguments, scenarios))

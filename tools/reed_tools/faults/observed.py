@@ -99,9 +99,14 @@ class Bounds:
 
 
 def hazard(run: Run, twin: Run, bounds: Bounds, onset: int) -> tuple[int, str] | None:
-    """The first cycle in which the true arm is dangerous, and how."""
+    """The first cycle in which the true arm is dangerous, and how. The bench puts the arm back to its start when a SYNC comes late as
+    after a restart of the controller; what follows is not of the fault."""
     plant = run.plant
     cycles, after = plant["cycle"], plant["cycle"] >= onset
+    restarted = next((message.cycle for message in run.recording.singles["REED_PLANT_EVENT"]
+                      if message.cycle >= onset and name_of(message.code) == "controller_restarted"), None)
+    if restarted is not None:
+        after = after & (cycles < restarted)
     tip_speed = np.linalg.norm(plant["tip_velocity"], axis=1)
     usual_mps = np.linalg.norm(twin.plant["tip_velocity"], axis=1).max(initial=0.0)
     kinds = {

@@ -37,14 +37,14 @@ def cell(rows: list[dict]) -> Markup | str:
 
 
 def cells(result: dict) -> str:
-    keys = ("detected_by", "fdti_ms", "frti_ms", "fhti_ms", "ftti_ms", "force_peak_N", "speed_peak_radps", "torque_step_Nm")
+    keys = ("detected_by", "fdti_ms", "frti_ms", "fhti_ms", "ftti_ms", "margin_ms", "force_peak_N", "speed_peak_radps", "torque_step_Nm")
     rows = []
     for row in result["rows"][:SHOWN]:
         values = [row["fault"], row["phase"], row["scenario"], row["seed"], row["class"], *(show(row[key]) for key in keys),
                   row["failure"] or (f"accepted: {row['accepted']}" if row["accepted"] else "")]
         rows.append("<tr>" + "".join(f"<td>{html.escape(str(value))}</td>" for value in values) + "</tr>"
                     + f'<tr><td colspan="{len(values)}"><pre>{html.escape(row["command"])}</pre></td></tr>')
-    head = ["fault", "phase", "scenario", "seed", "class", "detected by", "FDTI ms", "FRTI ms", "FHTI ms", "FTTI ms", "force N", "speed rad/s",
+    head = ["fault", "phase", "scenario", "seed", "class", "detected by", "FDTI ms", "FRTI ms", "FHTI ms", "FTTI ms", "margin ms", "force N", "speed rad/s",
             "torque step N·m", ""]
     return f"<table><thead><tr>{''.join(f'<th>{name}</th>' for name in head)}</tr></thead><tbody>\n" + "\n".join(rows) + "\n</tbody></table>"
 
@@ -65,7 +65,7 @@ def figures(result: dict) -> str:
 
 
 NOTE = """<p>FDTI: from the fault to its detection. FRTI: from there to the safe state, brakes closed and motors at rest. FHTI: both.
-FTTI: from the fault to the hazard, where it is reached; it is this bench's and no property of a real cell.
+FTTI: from the fault to the hazard in the same run with the controller's monitors off; it is this bench's and no property of a real cell.
 Dangerous: the true contact force, a joint's speed or position, or the tip's speed leaves its limit, or the tip is 20 mm from where it would be
 without the fault. DU, DD: dangerous undetected, detected; SU, SD: safe.</p>"""
 

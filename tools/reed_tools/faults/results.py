@@ -18,7 +18,7 @@ def failures(row: Row, reason: str | None) -> str | None:
     if not row.executed:
         return f"{row.verdict}{f': {row.expected}' if row.expected else ''}"
     if row.verdict == "dangerous undetected" and not reason:
-        return f"dangerous and undetected: {row.hazard}"
+        return f"dangerous and undetected: {row.hazard or row.hazard_unmonitored}"
     if row.hazard and not reason:
         return f"detected, and yet dangerous: {row.hazard}"
     return row.expected
@@ -43,8 +43,8 @@ def build(rows: list[Row], false_alarms: list[dict], twins: int, allowed: list[a
 
 def badness(row: Row, failure: str | None) -> tuple:
     """Worst first."""
-    soon = row.ftti_ms if row.ftti_ms is not None else math.inf
-    return (failure is None, ORDER.index(row.verdict), soon, row.fault, row.scenario, row.phase, row.seed)
+    margin = row.margin_ms if row.margin_ms is not None else math.inf
+    return (failure is None, ORDER.index(row.verdict), row.hazard is None, margin, row.fault, row.scenario, row.phase, row.seed)
 
 
 def write(folder: Path, result: dict) -> Path:
