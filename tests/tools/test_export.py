@@ -37,7 +37,8 @@ def reed(*argv):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A short run of both programs that touches the wall; one position is spoilt to NaN afterwards: it must survive."""
-    folder = lockstep_run.record(tmp_path_factory.mktemp("run"), BUS, "press_known", "scenario.duration_s=0.6", "scenario.seed=77")
+    folder = lockstep_run.record(tmp_path_factory.mktemp("run"), BUS, "press_known", "scenario.duration_s=0.6", "scenario.seed=77",
+                                 "link.wire_time=true")
     spoil(folder / "telemetry.lcmlog", cycle=200)
     return folder
 

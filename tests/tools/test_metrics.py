@@ -234,7 +234,7 @@ def test_decoding_at_once_equals_the_generated_classes(tmp_path):
     for _, channel, data in events(folder / "telemetry.lcmlog"):
         payloads.setdefault(channel, []).append(data)
     blocks = blocks_of(folder / "telemetry.lcmlog")
-    assert set(blocks) & set(TABLES) == set(TABLES) - {"REED_LAW"}  # a law of the bank shows nothing of its own
+    assert set(blocks) & set(TABLES) == set(TABLES) - {"REED_LAW", "REED_WIRE"}  # a law of the bank shows nothing of its own; no wire in time
     for channel, name in ((channel, name) for channel, name in TABLES.items() if channel in blocks):
         kind = getattr(reed, name)
         at_once = decode_all(kind, name, joined(name, blocks[channel]))
