@@ -170,19 +170,19 @@ def test_friction_of_the_urdf_is_taken_and_the_rest_is_marked(tmp_path):
         assert re.search(rf"^{key} = .*assumed", text, re.M), key
 
 
-def test_links_bend_by_the_rule_where_it_is_asked_for(tmp_path):
+def test_links_bend_by_the_rule_unless_they_are_to_be_rigid(tmp_path):
     """Slope at the end of a cantilever under a moment, T L / E I: 1 mrad at the torque limit of the joint that moves the link."""
     path = tmp_path / "robot.urdf"
     path.write_text(ARM.replace("</robot>", """<link name="three"><inertial><mass value="1"/><inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <joint name="j3" type="revolute"><origin xyz="0.01 0 0"/><parent link="two"/><child link="three"/><limit lower="-2" upper="2" effort="9" velocity="3"/></joint></robot>"""))
     found, arm = imported(path, None, {})
-    text = arm_file.text_of(found, "x", "y", flexible=True)
+    text = arm_file.text_of(found, "x", "y")
     member, = tomllib.loads(text)["member"]  # from joint 2 to joint 3 is no more than a housing; the last link holds the tool
-    assert nominal.of_table(tomllib.loads(text), "y").bends and not arm.bends and member["link"] == 1 and member["to_m"] == found.joints[1].offset.tolist() and text.count("[[member]]   # assumed") == 1
+    assert arm.bends and member["link"] == 1 and member["to_m"] == found.joints[1].offset.tolist() and text.count("[[member]]   # assumed") == 1
     outer, wall = member["tube"]["outer"], member["tube"]["wall"]
     assert 40 * 0.3 / (70e9 * np.pi / 64 * (outer**4 - (outer - 2 * wall) ** 4)) == pytest.approx(1e-3, rel=2e-3)
-    rigid = arm_file.text_of(found, "x", "y")
-    assert "member" not in tomllib.loads(rigid) and "Links are rigid." in rigid and "Links are rigid." not in text
+    rigid = arm_file.text_of(found, "x", "y", rigid=True)
+    assert "member" not in tomllib.loads(rigid) and "Links are rigid." in rigid and not nominal.of_table(tomllib.loads(rigid), "y").bends
 
 
 def reed(*argv):
@@ -198,8 +198,7 @@ def test_the_commands_write_once_and_say_what(tmp_path, capsys):
     assert reed("arm", "export", tmp_path / "a.toml", "--out", tmp_path / "b.urdf") == 0
     assert reed("arm", "export", tmp_path / "a.toml", "--out", tmp_path / "b.urdf") == 2
     assert reed("arm", "import", tmp_path / "robot.urdf", "--out", tmp_path / "r.toml", "--rigid") == 0
-    assert reed("arm", "import", tmp_path / "robot.urdf", "--out", tmp_path / "f.toml", "--flexible") == 0
-    assert (tmp_path / "a.toml").read_text() == (tmp_path / "r.toml").read_text() and "[[member]]" in (tmp_path / "f.toml").read_text()
+    assert "[[member]]" in (tmp_path / "a.toml").read_text() and "[[member]]" not in (tmp_path / "r.toml").read_text()
     capsys.readouterr()
     assert reed("arm", "import", tmp_path / "robot.urdf", "--out", tmp_path / "c.toml", "--limit", "j1=1") == 2
     assert "--limit j1=1: allowed: JOINT=LOWER,UPPER" in capsys.readouterr().err

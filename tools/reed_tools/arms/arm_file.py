@@ -27,20 +27,20 @@ def frame(R: np.ndarray, p: np.ndarray) -> str:
     return f"xyz_m = {row(p)}\nrpy_rad = {row(rpy_of(R))}\n"
 
 
-def text_of(serial: Serial, name: str, source: str, flexible: bool = False) -> str:
+def text_of(serial: Serial, name: str, source: str, rigid: bool = False) -> str:
     more = assumed(serial)
-    parts = [head(serial, name, source, flexible), drives(serial, more), parameters(serial, more), "[tool]\n" + frame(serial.tool_rotation, serial.tool_offset)]
+    parts = [head(serial, name, source, rigid), drives(serial, more), parameters(serial, more), "[tool]\n" + frame(serial.tool_rotation, serial.tool_offset)]
     parts += [f'[[joint]]\nname = "{joint.name}"\nframe = "{joint.frame}"\n' + frame(joint.rotation, joint.offset) for joint in serial.joints]
-    parts += members(serial) if flexible else []
+    parts += [] if rigid else members(serial)
     parts += ["# Nothing of a link is known: each is its mass times what a unit of it has, below.\n" + "\n".join([MASSLESS] * len(serial.joints))]
     parts += shapes(serial, more)
     parts.append(f"# The simulated arm's own.\n[truth]\ncoulomb = {row(more.coulomb)}{mark(more.given[0])}\n")
     return "\n".join(parts)
 
 
-def head(serial: Serial, name: str, source: str, flexible: bool) -> str:
+def head(serial: Serial, name: str, source: str, rigid: bool) -> str:
     held = f"# Joints beside the chain, held at 0: {', '.join(serial.held)}.\n" if serial.held else ""
-    return (f"# {name}: made from {source} by `tools/reed arm import`, base {serial.base}, tip {serial.tip}.{'' if flexible else ' Links are rigid.'}\n{held}"
+    return (f"# {name}: made from {source} by `tools/reed arm import`, base {serial.base}, tip {serial.tip}.{' Links are rigid.' if rigid else ''}\n{held}"
             f"# SI units, radians. Keys: config/README.md. What a URDF does not say is marked: # assumed.\n"
             f'name = "{name}"\ngravity = {row(GRAVITY_mps2)}   # base frame, z up: assumed\n')
 

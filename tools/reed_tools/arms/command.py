@@ -30,9 +30,7 @@ def add_arguments(parser) -> None:
     taken.add_argument("--tip", metavar="LINK", help="last link, whose origin is the tool point; needed where there are several")
     taken.add_argument("--limit", action="append", default=[], metavar="JOINT=LOWER,UPPER[,EFFORT,SPEED]",
                        help="limits that the URDF does not have (rad, N·m, rad/s), as those of continuous joints; repeatable")
-    links = taken.add_mutually_exclusive_group()
-    links.add_argument("--flexible", action="store_true", help="links bend as tubes from joint to joint, by rule and marked as assumed")
-    links.add_argument("--rigid", action="store_true", help="leave the links rigid; the default")
+    taken.add_argument("--rigid", action="store_true", help="leave the links rigid; default: tubes from joint to joint, by rule and marked as assumed")
     taken.add_argument("--json", action="store_true", help="print {arm, file, dof, base, tip, held}")
     given = verb("export", "a URDF from an arm file, with its nominal links")
     given.add_argument("arm", metavar="NAME|FILE")
@@ -59,7 +57,7 @@ def take(arguments) -> int:
     robot = urdf.read(arguments.urdf)
     found = serial.serial_of(robot, arguments.base, arguments.tip, limits_of(arguments.limit))
     name = re.sub(r"[^A-Za-z0-9_.-]", "_", robot.name)
-    write_new("--out", target, arm_file.text_of(found, name, plain(arguments.urdf.name), arguments.flexible))
+    write_new("--out", target, arm_file.text_of(found, name, plain(arguments.urdf.name), arguments.rigid))
     if arguments.json:
         print(json.dumps({"arm": name, "file": str(target), "dof": len(found.joints), "base": found.base, "tip": found.tip, "held": found.held}))
         return 0
