@@ -3,9 +3,9 @@
 //   |s| > allowed, for kRow cycles      s = v − θ̇ (25), rad/s
 #pragma once
 
-#include <array>
 #include <cmath>
 
+#include "reed/core/safety/in_row.h"
 #include "reed/core/safety/limits.h"
 
 namespace reed::protect {
@@ -18,14 +18,12 @@ class FollowingError {
   /// allowed: rad/s
   explicit FollowingError(const Vec<N>& allowed) noexcept : allowed_(allowed) {}
 
-  void Reset() noexcept { in_row_.fill(0); }
+  void Reset() noexcept { in_row_.Reset(); }
 
   LimitCheck Step(const Vec<N>& s) noexcept {
     LimitCheck check;
     for (int i = 0; i < N; ++i) {
-      const auto joint = static_cast<std::size_t>(i);
-      in_row_[joint] = std::abs(s[i]) > allowed_[i] ? in_row_[joint] + 1 : 0;
-      if (in_row_[joint] >= kRow && check.trip == Reason::kNone)
+      if (in_row_.Add(i, std::abs(s[i]) > allowed_[i]) && check.trip == Reason::kNone)
         check = {Reason::kFollowingError, i, s[i], 0};
     }
     return check;
@@ -33,7 +31,7 @@ class FollowingError {
 
  private:
   Vec<N> allowed_;
-  std::array<int, static_cast<std::size_t>(N)> in_row_{};
+  InRow<N> in_row_{kRow};
 };
 
 }  // namespace reed::protect

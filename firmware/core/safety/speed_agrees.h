@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "reed/core/measurement.h"
+#include "reed/core/safety/in_row.h"
 #include "reed/core/safety/limits.h"
 #include "reed/math/exponential.h"
 
@@ -26,7 +27,7 @@ class SpeedAgrees {
       : allowed_(allowed), share_(-math::ExpM1(-2.0 * std::numbers::pi * filter_hz * T)), T_(T) {}
 
   void Reset(const Measurement<N>& measured) noexcept {
-    in_row_.fill(0);
+    in_row_.Reset();
     theta_ = measured.theta;
     omega_ = measured.theta_dot;
   }
@@ -42,8 +43,7 @@ class SpeedAgrees {
                           : measured.theta_dot[i];
       theta_[i] = measured.theta[i];
       const double differs = measured.theta_dot[i] - omega_[i];
-      in_row_[joint] = std::abs(differs) > allowed_[i] ? in_row_[joint] + 1 : 0;
-      if (in_row_[joint] >= kRow && check.trip == Reason::kNone)
+      if (in_row_.Add(i, std::abs(differs) > allowed_[i]) && check.trip == Reason::kNone)
         check = {Reason::kSpeedContradicts, i, differs, 0};
     }
     return check;
@@ -54,7 +54,7 @@ class SpeedAgrees {
   double share_, T_;
   Vec<N> theta_ = Vec<N>::Zero(), omega_ = Vec<N>::Zero();
   std::array<bool, static_cast<std::size_t>(N)> was_fresh_{};
-  std::array<int, static_cast<std::size_t>(N)> in_row_{};
+  InRow<N> in_row_{kRow};
 };
 
 }  // namespace reed::protect

@@ -51,7 +51,7 @@ class Supervisor {
     return start_wanted_ && !enabling_ && (mode_ == Mode::kOff || mode_ == Mode::kReady);
   }
   /// Everything is ready but the force sensor's zero may be missing.
-  bool awaits_tare() const noexcept { return mode_ == Mode::kReady && start_wanted_ && !enabling_; }
+  bool awaits_tare() const noexcept { return awaits_start() && mode_ == Mode::kReady; }
   int cycles_enabling() const noexcept { return cycles_enabling_; }
   std::int64_t cycles_in_mode() const noexcept { return cycles_in_mode_; }
 

@@ -7,9 +7,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "reed/core/measurement.h"
+#include "reed/core/safety/in_row.h"
 #include "reed/core/safety/limits.h"
 
 namespace reed::protect {
@@ -23,7 +23,7 @@ class TorqueDelivery {
   explicit TorqueDelivery(const Vec<N>& allowed) noexcept : allowed_(allowed) {}
 
   void Reset() noexcept {
-    in_row_.fill(0);
+    in_row_.Reset();
     last_.setZero();
     before_.setZero();
   }
@@ -32,14 +32,12 @@ class TorqueDelivery {
   LimitCheck Step(const Measurement<N>& measured, const Vec<N>& sent) noexcept {
     LimitCheck check;
     for (int i = 0; i < N; ++i) {
-      const auto joint = static_cast<std::size_t>(i);
-      if (measured.age[joint] != 0) continue;
+      if (measured.age[static_cast<std::size_t>(i)] != 0) continue;
       const double reported = measured.torque[i];
       const double asked =
           std::clamp(reported, std::min(last_[i], before_[i]), std::max(last_[i], before_[i]));
       const bool off = !(std::abs(reported - asked) <= allowed_[i]);
-      in_row_[joint] = off ? in_row_[joint] + 1 : 0;
-      if (in_row_[joint] >= kRow && check.trip == Reason::kNone)
+      if (in_row_.Add(i, off) && check.trip == Reason::kNone)
         check = {Reason::kTorqueNotDelivered, i, reported - asked, 0};
     }
     before_ = last_;
@@ -50,7 +48,7 @@ class TorqueDelivery {
  private:
   Vec<N> allowed_;
   Vec<N> last_ = Vec<N>::Zero(), before_ = Vec<N>::Zero();
-  std::array<int, static_cast<std::size_t>(N)> in_row_{};
+  InRow<N> in_row_{kRow};
 };
 
 }  // namespace reed::protect

@@ -8,9 +8,10 @@
 // kStart_s, in which twice the torque is allowed. A torque that jumps by d is found after −ln(1 − allowed/d)/K_o + kRow T.
 #pragma once
 
-#include <array>
+#include <cmath>
 
 #include "reed/core/measurement.h"
+#include "reed/core/safety/in_row.h"
 #include "reed/core/safety/limits.h"
 #include "reed/math/exponential.h"
 
@@ -31,7 +32,7 @@ class TorqueExplained {
         T_(T) {}
 
   void Reset() noexcept {
-    in_row_.fill(0);
+    in_row_.Reset();
     felt_.setZero();
     slow_.setZero();
     since_s_ = 0.0;
@@ -50,11 +51,9 @@ class TorqueExplained {
     slow_ += (starts ? quick_share_ : slow_share_) * (u - slow_);
     LimitCheck check;
     for (int i = 0; i < N; ++i) {
-      const auto joint = static_cast<std::size_t>(i);
       const double unexplained = u[i] - slow_[i];
       const bool off = !(std::abs(unexplained) <= (starts ? 2.0 : 1.0) * allowed_[i]);
-      in_row_[joint] = off ? in_row_[joint] + 1 : 0;
-      if (in_row_[joint] >= kRow && check.trip == Reason::kNone)
+      if (in_row_.Add(i, off) && check.trip == Reason::kNone)
         check = {Reason::kTorqueUnexplained, i, unexplained, 0};
     }
     return check;
@@ -66,7 +65,7 @@ class TorqueExplained {
   Vec<N> allowed_;
   double lag_share_, quick_share_, slow_share_, T_;
   Vec<N> felt_ = Vec<N>::Zero(), slow_ = Vec<N>::Zero();
-  std::array<int, static_cast<std::size_t>(N)> in_row_{};
+  InRow<N> in_row_{kRow};
   double since_s_ = 0.0;
 };
 
