@@ -17,6 +17,14 @@ struct SectionError : std::invalid_argument {
   int section;
 };
 
+/// Sets everything of a member but its place.
+inline void SetSection(const BeamSection& section, FlexibleMember& member) {
+  member.EA_N = section.EA_N;
+  member.EI_y_Nm2 = member.EI_z_Nm2 = section.EI_Nm2;
+  member.GJ_Nm2 = section.GJ_Nm2;
+  member.rhoA_kgpm = section.rhoA_kgpm;
+}
+
 /// Sections follow the chain: for each link its d along z, then the next joint's shift along x, where not zero. What lies
 /// before the first joint and behind the last origin (the tool) is rigid. Empty where the links are rigid. Throws
 /// SectionError.
@@ -40,10 +48,7 @@ inline std::vector<FlexibleMember> FlexibleMembers(const ArmStructure& arm) {
     if (std::abs(section.length_m - member.length_m()) > kSameLength_m)
       throw SectionError(static_cast<int>(index), name + " has length " + ToText(section.length_m) +
                                                       " m, but the joints are " + length + " m apart");
-    member.EA_N = section.EA_N;
-    member.EI_y_Nm2 = member.EI_z_Nm2 = section.EI_Nm2;
-    member.GJ_Nm2 = section.GJ_Nm2;
-    member.rhoA_kgpm = section.rhoA_kgpm;
+    SetSection(section, member);
     members.push_back(member);
   };
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {

@@ -85,7 +85,7 @@ FlexibleMember ReadMember(Reader& item, int links) {
   MemberPlace(item, member);
   if (item.Has("tube") && item.Has("box")) item.Fail("box", "given beside tube; one of them is its section");
   if (item.Has("tube"))
-    SetSection(ReadTube(item, {"EA", "EI_y", "EI_z", "GJ"}), member);
+    SetSection(SectionOf(ReadTube(item, {"EA", "EI_y", "EI_z", "GJ"}), 0.0), member);
   else if (item.Has("box"))
     SetSection(ReadBox(item, {"EA", "EI_y", "EI_z", "GJ"}), member);
   else

@@ -39,12 +39,4 @@ inline void SetSection(const Box& box, FlexibleMember& member) {
   member.rhoA_kgpm = m.rho_kgpm3 * A;
 }
 
-inline void SetSection(const Tube& tube, FlexibleMember& member) {
-  const BeamSection section = SectionOf(tube, 0.0);
-  member.EA_N = section.EA_N;
-  member.EI_y_Nm2 = member.EI_z_Nm2 = section.EI_Nm2;
-  member.GJ_Nm2 = section.GJ_Nm2;
-  member.rhoA_kgpm = section.rhoA_kgpm;
-}
-
 }  // namespace reed

@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace reed::plant {
-namespace {
-
-/// SYNCs that were lost on the way still took their period each; a larger hole is not a loss any more.
-constexpr std::uint32_t kMaxGapCycles = 1000;
-
-}  // namespace
-
 LockstepEndpoint::LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body,
                                    RecordSink& recorder, std::unique_ptr<bus::ArmCodec> codec)
     : Endpoint(config, transport, body, recorder, std::move(codec)), rate_hz_(config.timing.rate_hz) {}

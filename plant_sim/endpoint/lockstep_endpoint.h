@@ -13,6 +13,9 @@
 
 namespace reed::plant {
 
+/// SYNCs that were lost on the way still took their period each; a larger hole is not a loss any more.
+inline constexpr std::uint32_t kMaxGapCycles = 1000;
+
 class LockstepEndpoint final : public Endpoint {
  public:
   LockstepEndpoint(const PlantConfig& config, bus::Transport& transport, ArmBody& body, RecordSink& recorder,

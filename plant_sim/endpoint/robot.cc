@@ -9,8 +9,6 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::uint32_t kEncoderStream = 16;  // of the first joint
-
 double Fastest(const Eigen::VectorXd& speed_radps) { return speed_radps.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -21,11 +19,10 @@ Robot::Robot(const PlantConfig& config, ArmBody& body, Journal& journal)
       start_rad_(Eigen::Map<const Eigen::VectorXd>(config.start_rad.data(), config.arm.dof())),
       drives_(config.arm, config.drives),
       excitation_(config.drives),
-      encoder_(config.sensors.encoder_bits),
-      encoder_noise_rad_(config.sensors.encoder_noise_rad),
-      seed_(config.seed),
       speeds_(static_cast<std::size_t>(config.arm.dof()), VelocityFilter(config.sensors.velocity_filter_hz)),
       wrench_(config.sensors, config.seed) {
+  for (int i = 0; i < config.arm.dof(); ++i)
+    encoders_.emplace_back(config.sensors.encoder_bits, config.sensors.encoder_noise_rad, config.seed, i);
   Reset();
 }
 
@@ -34,10 +31,9 @@ void Robot::Reset() {
   drives_.Reset();
   excited_Nm_ = drives_.torque_Nm();  // its size, so that Advance allocates nothing
   wrench_.Reset();
-  encoder_noise_.clear();
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
-    encoder_noise_.emplace_back(seed_, kEncoderStream + static_cast<std::uint32_t>(i));
-    speeds_[i].Reset(ReadAngle(static_cast<Eigen::Index>(i)));
+    encoders_[i].Reset();
+    speeds_[i].Reset(encoders_[i].Read(start_rad_[static_cast<Eigen::Index>(i)]));
   }
   time_s_ = 0.0;
   sampled_s_ = 0.0;
@@ -47,11 +43,12 @@ void Robot::Reset() {
 }
 
 Measurement Robot::Measure() {
+  const Truth& truth = body_.truth();
   Measurement m;
   m.dof = static_cast<int>(speeds_.size());
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const double reading_rad = ReadAngle(row);
+    const double reading_rad = encoders_[i].Read(truth.motor_angle_rad[row]);
     speeds_[i].Update(reading_rad, time_s_ - sampled_s_);
     m.joints[i].position_rad = reading_rad;
     m.joints[i].velocity_radps = speeds_[i].speed_radps();
@@ -59,16 +56,9 @@ Measurement Robot::Measure() {
     m.joints[i].state = drives_.state();
   }
   sampled_s_ = time_s_;
-  m.wrench = wrench_.Measure(body_.truth().sensed_force_N, body_.truth().sensed_moment_Nm);
+  m.wrench = wrench_.Measure(truth.sensed_force_N, truth.sensed_moment_Nm);
   m.wrench_lost = !wrench_.fitted();
   return m;
-}
-
-double Robot::ReadAngle(Eigen::Index joint) noexcept {
-  const double noise_rad = encoder_noise_rad_ > 0.0
-                               ? encoder_noise_rad_ * encoder_noise_[static_cast<std::size_t>(joint)].Normal()
-                               : 0.0;
-  return encoder_.Read(body_.truth().motor_angle_rad[joint] + noise_rad);
 }
 
 bool Robot::Command(const bus::CommandMessage& command) {

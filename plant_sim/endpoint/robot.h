@@ -14,7 +14,6 @@
 #include "reed/plant/endpoint/journal.h"
 #include "reed/plant/sensor/encoder.h"
 #include "reed/plant/sensor/measurement.h"
-#include "reed/plant/sensor/random_stream.h"
 #include "reed/plant/sensor/velocity_filter.h"
 #include "reed/plant/sensor/wrench_sensor.h"
 
@@ -53,8 +52,6 @@ class Robot {
   const DriveChain& drives() const noexcept { return drives_; }
 
  private:
-  /// Motor angle of a joint as its encoder reads it now.
-  double ReadAngle(Eigen::Index joint) noexcept;
   /// Notes what a command, a silence or the physics changed.
   void NoteDriveChange(bus::DriveState before);
   void NoteContactChange();
@@ -65,10 +62,7 @@ class Robot {
   DriveChain drives_;
   TorqueExcitation excitation_;
   Eigen::VectorXd excited_Nm_;  // what the arm gets while there is an excitation
-  JointEncoder encoder_;
-  double encoder_noise_rad_;
-  std::int64_t seed_;
-  std::vector<RandomStream> encoder_noise_;  // one per joint
+  std::vector<JointEncoder> encoders_;
   std::vector<VelocityFilter> speeds_;
   WrenchSensor wrench_;
   double time_s_ = 0.0;

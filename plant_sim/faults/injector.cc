@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reed/bus/transport/forwarding_transport.h"
 #include "reed/plant/drive/drive_state.h"
 #include "reed/plant/faults/fault_checks.h"
 #include "reed/plant/faults/kinds.h"
@@ -9,13 +10,11 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::uint32_t kFirstStream = 1000;  // those below are the sensors'
-
 /// A stream of its own by the fault's name: another fault in the file shifts nothing (FNV-1a).
 std::uint32_t StreamOf(const std::string& id) {
   std::uint32_t hash = 2166136261U;
   for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return std::max(hash, kFirstStream);
+  return std::max(hash, stream::kFault);
 }
 
 }  // namespace
@@ -63,12 +62,12 @@ class Injector::Body final : public ArmBody {
 };
 
 /// The bus behind the port: frames of both directions pass the faults.
-class Injector::Wire final : public bus::Transport {
+class Injector::Wire final : public bus::ForwardingTransport {
  public:
-  Wire(Injector& faults, bus::Transport& transport) : faults_(faults), transport_(transport) {}
+  Wire(Injector& faults, bus::Transport& transport) : bus::ForwardingTransport(transport), faults_(faults) {}
 
   int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
-    const int count = transport_.Receive(out, wanted, deadline_ns);
+    const int count = ForwardingTransport::Receive(out, wanted, deadline_ns);
     batch_.Clear();
     for (const bus::Frame& frame : out.first(static_cast<std::size_t>(count))) {
       if (frame.id == bus::layout::kSync.id) faults_.NoteSync();
@@ -83,17 +82,12 @@ class Injector::Wire final : public bus::Transport {
     batch_.Clear();
     batch_.Add(frames);
     faults_.ForActing(true, [&](Fault& fault, const Moment& at) { fault.OnSent(batch_, at); });
-    transport_.Send(batch_.frames());
+    ForwardingTransport::Send(batch_.frames());
     return static_cast<int>(frames.size());
   }
-  bool alive() const noexcept override { return transport_.alive(); }
-  const bus::TransportCounters& counters() const noexcept override { return transport_.counters(); }
-  std::string kind() const override { return transport_.kind(); }
-  std::string interface() const override { return transport_.interface(); }
 
  private:
   Injector& faults_;
-  bus::Transport& transport_;
   FrameBatch batch_;
 };
 

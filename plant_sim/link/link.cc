@@ -11,7 +11,6 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::uint32_t kCommandStream = 3, kMeasurementStream = 4;
 constexpr std::int64_t kAnyTime_ns = std::numeric_limits<std::int64_t>::max();
 constexpr double kLongestReceive = 0.8;  // of the period: the controller computes, too
 
@@ -32,8 +31,8 @@ Link::Link(const LinkConfig& config, const TimingConfig& timing, int joints, std
       controller_ns_(std::llround(1e9 * config.controller_s)),
       wire_({config.wire_time ? config.foreign_load : 0.0, config.foreign_id,
              static_cast<std::uint64_t>(seed)}),
-      commands_(config.command, seed, kCommandStream),
-      measurements_(config.measurement, seed, kMeasurementStream) {}
+      commands_(config.command, seed, stream::kCommand),
+      measurements_(config.measurement, seed, stream::kMeasurement) {}
 
 std::int64_t Link::Start(std::int64_t cycle_ns, const bus::Frame& sync) noexcept {
   over_ = now_;

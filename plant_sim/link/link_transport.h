@@ -3,19 +3,21 @@
 
 #include <array>
 #include <memory>
-#include <string>
 #include <utility>
 
-#include "reed/bus/transport/transport.h"
+#include "reed/bus/transport/forwarding_transport.h"
 #include "reed/plant/link/link.h"
 #include "reed_layout.h"
 
 namespace reed::plant {
 
-class LinkTransport final : public bus::Transport {
+class LinkTransport final : public bus::ForwardingTransport {
  public:
   /// bus outlives it.
-  LinkTransport(bus::Transport& bus, const PlantConfig& config) : bus_(bus), config_(config) { StartOver(); }
+  LinkTransport(bus::Transport& bus, const PlantConfig& config)
+      : bus::ForwardingTransport(bus), config_(config) {
+    StartOver();
+  }
 
   /// Nothing is on its way.
   void StartOver() {
@@ -26,7 +28,7 @@ class LinkTransport final : public bus::Transport {
   const bus::Frame& command() const noexcept { return command_; }
 
   int Receive(std::span<bus::Frame> out, int wanted, std::int64_t deadline_ns) noexcept override {
-    const int count = bus_.Receive(out, wanted, deadline_ns);
+    const int count = ForwardingTransport::Receive(out, wanted, deadline_ns);
     for (const bus::Frame& frame : out.first(static_cast<std::size_t>(count))) {
       if (frame.id == bus::layout::kSync.id) sync_ = frame;
       if (frame.id == bus::layout::kCommand.id) command_ = frame;
@@ -39,18 +41,13 @@ class LinkTransport final : public bus::Transport {
     std::size_t count = 0;
     while (const auto frame = link_->TakeForController()) {
       batch[count++] = *frame;
-      if (count == batch.size()) bus_.Send(std::span(batch).first(std::exchange(count, 0)));
+      if (count == batch.size()) ForwardingTransport::Send(std::span(batch).first(std::exchange(count, 0)));
     }
-    if (count > 0) bus_.Send(std::span(batch).first(count));
+    if (count > 0) ForwardingTransport::Send(std::span(batch).first(count));
     return static_cast<int>(frames.size());
   }
-  bool alive() const noexcept override { return bus_.alive(); }
-  const bus::TransportCounters& counters() const noexcept override { return bus_.counters(); }
-  std::string kind() const override { return bus_.kind(); }
-  std::string interface() const override { return bus_.interface(); }
 
  private:
-  bus::Transport& bus_;
   PlantConfig config_;
   std::unique_ptr<Link> link_;
   bus::Frame sync_, command_;  // the last ones

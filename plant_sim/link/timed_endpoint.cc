@@ -9,13 +9,6 @@
 #include "reed/rt/grid.h"
 
 namespace reed::plant {
-namespace {
-
-/// SYNCs that were lost on the way still took their period each; a larger hole is not a loss any more.
-constexpr std::int64_t kMaxGapCycles = 1000;
-
-}  // namespace
-
 TimedEndpoint::TimedEndpoint(const PlantConfig& config, std::unique_ptr<LinkTransport> bus, ArmBody& body,
                              RecordSink& sink)
     : Endpoint(config, *bus, body, sink),
@@ -44,7 +37,7 @@ void TimedEndpoint::OnSync(const Incoming& sync) {
     bus_->StartOver();
     cycle_ns_ = now_ns_ = 0;
   } else {
-    cycle_ns_ += period_ns_ * std::min(sync.count - count_, kMaxGapCycles + 1);
+    cycle_ns_ += period_ns_ * std::min(sync.count - count_, std::int64_t{kMaxGapCycles} + 1);
   }
   count_ = sync.count;
   cycle_ = sync.sync.cycle;

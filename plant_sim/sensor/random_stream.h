@@ -12,6 +12,14 @@
 
 namespace reed::plant {
 
+/// One for each source of randomness in a run.
+namespace stream {
+inline constexpr std::uint32_t kForce = 1, kMoment = 2;         // of the force sensor
+inline constexpr std::uint32_t kCommand = 3, kMeasurement = 4;  // of the link, by direction
+inline constexpr std::uint32_t kEncoder = 16;                   // of the first joint
+inline constexpr std::uint32_t kFault = 1000;                   // and all above it
+}  // namespace stream
+
 class RandomStream {
  public:
   RandomStream(std::int64_t seed, std::uint32_t stream) {

@@ -6,9 +6,6 @@
 namespace reed::plant {
 namespace {
 
-constexpr std::uint32_t kForceStream = 1;
-constexpr std::uint32_t kMomentStream = 2;
-
 double Quantize(double value, double quantum) noexcept {
   return quantum > 0.0 ? std::nearbyint(value / quantum) * quantum : value;
 }
@@ -16,11 +13,14 @@ double Quantize(double value, double quantum) noexcept {
 }  // namespace
 
 WrenchSensor::WrenchSensor(const SensorConfig& config, std::int64_t seed)
-    : config_(config), seed_(seed), force_noise_(seed, kForceStream), moment_noise_(seed, kMomentStream) {}
+    : config_(config),
+      seed_(seed),
+      force_noise_(seed, stream::kForce),
+      moment_noise_(seed, stream::kMoment) {}
 
 void WrenchSensor::Reset() {
-  force_noise_ = RandomStream(seed_, kForceStream);
-  moment_noise_ = RandomStream(seed_, kMomentStream);
+  force_noise_ = RandomStream(seed_, stream::kForce);
+  moment_noise_ = RandomStream(seed_, stream::kMoment);
 }
 
 WrenchReading WrenchSensor::Measure(const Eigen::Vector3d& force_N,

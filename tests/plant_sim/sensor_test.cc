@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(JointJointEncoder, ReadsTheNearestOfItsMarks) {
-  const JointEncoder encoder(20);
+TEST(JointEncoder, ReadsTheNearestOfItsMarks) {
+  JointEncoder encoder(20);
   EXPECT_DOUBLE_EQ(encoder.lsb_rad(), 2.0 * std::numbers::pi / 1048576.0);
   EXPECT_EQ(encoder.Read(0.0), 0.0);
   std::mt19937_64 engine(2);
