@@ -8,7 +8,7 @@ for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
     if signal.getsignal(number) == signal.SIG_IGN:  # `nohup … &`: it stays so here, and what the tests start gets the usual
         signal.signal(number, lambda *_: None)
 
-FLIES = ("bus/", "endurance/test_kill.py", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
+REALTIME = ("bus/", "endurance/test_kill.py", "firmware/", "plant_sim/", "runs/", "strategy/", "telemetry/", "timing/test_bad_timing.py",
          "timing/test_loop_calls.py", "tools/test_hil.py", "tools/test_killed.py", "tools/test_live.py",
          "tools/test_report_page.py")
 
@@ -22,8 +22,8 @@ def pytest_configure(config):
 def pytest_xdist_make_scheduler(config, log):
     from xdist.scheduler import LoadScopeScheduling
 
-    class OneWorkerFlies(LoadScopeScheduling):
+    class OneWorkerInRealtime(LoadScopeScheduling):
         def _split_scope(self, nodeid):
-            return "flies" if nodeid.startswith(FLIES) else nodeid.split("::")[0]
+            return "realtime" if nodeid.startswith(REALTIME) else nodeid.split("::")[0]
 
-    return OneWorkerFlies(config, log)
+    return OneWorkerInRealtime(config, log)

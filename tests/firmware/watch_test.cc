@@ -97,6 +97,12 @@ class WaitingArm : public ::testing::Test {
     return check;
   }
 
+  static void ExpectDrive2(const LimitCheck& check, DriveState state) {
+    EXPECT_EQ(check.trip, Reason::kDriveFault);
+    EXPECT_EQ(check.joint, 1);
+    EXPECT_EQ(check.value, static_cast<double>(state));
+  }
+
   static constexpr int kPatience = 2000;
   mode::Supervisor supervisor_{true};
   Measurement<kJoints> measured_;
@@ -133,25 +139,19 @@ TEST_F(WaitingArm, NamesTheJointThatIsAlwaysLate) {
 TEST_F(WaitingArm, ADriveInFaultIsReportedAtOnceBeforeTheArmHasStarted) {
   measured_.drive = {DriveState::kReady, DriveState::kFault};
   const LimitCheck check = After(mode::Supervisor::kFreshInRow + 1);
-  EXPECT_EQ(check.trip, Reason::kDriveFault);
-  EXPECT_EQ(check.joint, 1);
-  EXPECT_EQ(check.value, static_cast<double>(DriveState::kFault));
+  ExpectDrive2(check, DriveState::kFault);
 }
 
 TEST_F(WaitingArm, NamesTheDriveThatDoesNotGetReady) {
   measured_.drive = {DriveState::kReady, DriveState::kOff};
   const LimitCheck check = After(kPatience + 1);
-  EXPECT_EQ(check.trip, Reason::kDriveFault);
-  EXPECT_EQ(check.joint, 1);
-  EXPECT_EQ(check.value, static_cast<double>(DriveState::kOff));
+  ExpectDrive2(check, DriveState::kOff);
 }
 
 TEST_F(WaitingArm, NamesTheDriveThatStaysBraked) {
   measured_.drive = {DriveState::kOff, DriveState::kBraked};
   const LimitCheck check = After(kPatience + 1);
-  EXPECT_EQ(check.trip, Reason::kDriveFault);
-  EXPECT_EQ(check.joint, 1);
-  EXPECT_EQ(check.value, static_cast<double>(DriveState::kBraked));
+  ExpectDrive2(check, DriveState::kBraked);
 }
 
 TEST_F(WaitingArm, SaysThatTheForceSensorsZeroIsMissing) {

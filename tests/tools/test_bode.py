@@ -6,29 +6,14 @@ import subprocess
 
 import numpy as np
 import pytest
+import rigid_joint
 from built import reed
 
 from reed_tools.bode import multisine
 from reed_tools.bode.loop_gain import LoopGain, estimate, margins
 from reed_tools.paths import program
 
-STILL = """arm = "a5"
-[scenario]
-duration_s = 2.0
-[reference]
-start_rad = [0.0, 1.057362, -1.764384, -2.43457, 0.0]
-[control]
-law = "pd_tuned"
-K_d = [33.0, 30.0, 18.0, 5.5, 3.1]
-Lambda = 15.0
-[plant]
-flexible_links = false
-stiffness_scale = 1e6
-friction_scale = 0.0
-p_true = [0.4, 0.05, 0.05, 0.3, 0.2, 0.0]
-[sensors]
-encoder_bits = 26
-"""
+STILL = rigid_joint.scenario(2.0, "[33.0, 30.0, 18.0, 5.5, 3.1]")
 
 
 def planted(f, gain, delay_s):

@@ -7,6 +7,7 @@ import subprocess
 import control
 import numpy as np
 import pytest
+import rigid_joint
 from built import reed
 
 from reed_tools.map import grid
@@ -16,32 +17,18 @@ from reed_tools.map.measured import Mapped
 from reed_tools.paths import build, program
 
 STEP_S = 2e-3
-STILL = """arm = "a5"
-[scenario]
-duration_s = 3.0
-[reference]
-start_rad = [0.0, 1.057362, -1.764384, -2.43457, 0.0]
-[[reference.legs]]
+MOTION = """[[reference.legs]]
 kind = "joint"
 duration_s = 0.3
 to_rad = [0.1, 1.057362, -1.764384, -2.43457, 0.0]
-[control]
-law = "pd_tuned"
-K_d = [33.0, 9.0, 6.0, 1.5, 0.8]
-Lambda = 15.0
-[limits]
+"""
+MORE = """[limits]
 torque_rate_scale = 10000.0
-[plant]
-flexible_links = false
-stiffness_scale = 1e6
-friction_scale = 0.0
-p_true = [0.4, 0.05, 0.05, 0.3, 0.2, 0.0]
-[sensors]
-encoder_bits = 26
 [[checks]]
 name = "joint_rms_mrad_last_second"
 limit = 30.0
 """
+STILL = rigid_joint.scenario(3.0, "[33.0, 9.0, 6.0, 1.5, 0.8]", MOTION, MORE)
 
 
 def test_a_border_is_where_good_values_in_a_row_end():

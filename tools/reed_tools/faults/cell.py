@@ -13,7 +13,7 @@ from reed_tools.faults.catalogue import as_override
 from reed_tools.run import hil, in_memory, scenario
 
 LOST = 3  # status of a program whose bus was lost: for some faults the right end
-NEVER_DONE = "the scenario was not done"  # an arm that a fault keeps from starting waits, with its brakes closed
+NEVER_DONE = "the scenario was not done"  # without its monitors an arm that a fault keeps from starting waits, with its brakes closed
 
 
 @dataclass(frozen=True)

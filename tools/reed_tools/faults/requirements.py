@@ -8,12 +8,13 @@ from pathlib import Path
 
 from reed_tools.errors import UsageError
 from reed_tools.faults import accepted, catalogue
+from reed_tools.faults.results import CLASSES
 from reed_tools.paths import ROOT
+from reed_tools.record.whole_file import write_text
 
 SAFETY = ROOT / "safety"
 MATRIX = SAFETY / "matrix.jsonl"
 ACTIONS = ("not provided", "provided", "too early", "too late", "out of order", "stopped too soon", "applied too long")
-CLASSES = ("dangerous undetected", "dangerous detected", "safe undetected", "safe detected")  # worst first
 KEYS = {"id", "action", "unsafe", "shall", "faults", "evidence"}
 WHEN = ("within_ms", "before_hazard")  # one of them
 
@@ -115,7 +116,7 @@ def summarised(rows: list[dict]) -> list[Shown]:
 
 
 def keep(rows: list[dict]) -> None:
-    MATRIX.write_text("".join(json.dumps(asdict(shown)) + "\n" for shown in summarised(rows)), encoding="utf-8")
+    write_text(MATRIX, "".join(json.dumps(asdict(shown)) + "\n" for shown in summarised(rows)))
 
 
 def kept(path: Path = MATRIX) -> list[Shown]:

@@ -10,7 +10,14 @@ from reed_tools.record.whole_file import write_text
 
 FILE = "faults.json"
 SCHEMA = 1
-ORDER = ("died", "refused", "not executed", "dangerous undetected", "dangerous detected", "safe undetected", "safe detected")  # worst first
+CLASSES = ("dangerous undetected", "dangerous detected", "safe undetected", "safe detected")  # worst first
+ORDER = ("died", "refused", "not executed", *CLASSES)
+
+
+def coverage(classes: list[str]) -> float | None:
+    """Share of the dangerous cells that were detected before the hazard."""
+    detected, undetected = classes.count("dangerous detected"), classes.count("dangerous undetected")
+    return detected / (detected + undetected) if detected + undetected else None
 
 
 def failures(row: Row, reason: str | None) -> str | None:
@@ -28,11 +35,11 @@ def build(rows: list[Row], false_alarms: list[dict], twins: int, allowed: list[a
     reasons = {id(row): accepted.reason_for(row, allowed) for row in rows}
     failed = {id(row): failures(row, reasons[id(row)]) for row in rows}
     rows = sorted(rows, key=lambda row: badness(row, failed[id(row)]))
-    dangerous = [row for row in rows if row.verdict.startswith("dangerous")]
-    undetected = [row for row in dangerous if row.verdict == "dangerous undetected"]
+    covered = coverage([row.verdict for row in rows])
+    undetected = [row for row in rows if row.verdict == "dangerous undetected"]
     return {"schema": SCHEMA, **head, "verdict": "fail" if any(failed.values()) or false_alarms else "pass",
             "cells": len(rows), "classes": {name: sum(row.verdict == name for row in rows) for name in sorted({row.verdict for row in rows})},
-            "diagnostic_coverage": round((len(dangerous) - len(undetected)) / len(dangerous), 6) if dangerous else None,
+            "diagnostic_coverage": None if covered is None else round(covered, 6),
             "dangerous_undetected": len(undetected),
             "dangerous_undetected_accepted": sum(reasons[id(row)] is not None for row in undetected),
             "false_alarms": false_alarms, "fault_free_runs": twins,

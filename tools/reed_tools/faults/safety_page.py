@@ -2,9 +2,10 @@
 
 import math
 
-from reed_tools.faults import accepted, requirements
+from reed_tools.faults import accepted, requirements, results
 from reed_tools.faults.requirements import Requirement, Shown
 from reed_tools.paths import ROOT
+from reed_tools.record.whole_file import write_text
 
 PAGE = ROOT / "docs" / "safety.md"
 HEAD = """# From hazard to evidence
@@ -29,15 +30,14 @@ def page() -> str:
 
 
 def write() -> None:
-    PAGE.write_text(page(), encoding="utf-8")
+    write_text(PAGE, page())
 
 
 def classes(shown: list[Shown]) -> list[str]:
-    detected = sum(cell.worst == "dangerous detected" for cell in shown)
-    undetected = sum(cell.worst == "dangerous undetected" for cell in shown)
-    coverage = f"{100.0 * detected / (detected + undetected):.1f} %" if detected + undetected else "-"
+    covered = results.coverage([cell.worst for cell in shown])
+    coverage = "-" if covered is None else f"{100.0 * covered:.1f} %"
     return [f"{len(shown)} cells, {sum(cell.seeds for cell in shown)} runs. Diagnostic coverage {coverage}: dangerous cells detected before the hazard.", "",
-            "| class | cells |", "|---|---|", *(f"| {name} | {sum(cell.worst == name for cell in shown)} |" for name in requirements.CLASSES)]
+            "| class | cells |", "|---|---|", *(f"| {name} | {sum(cell.worst == name for cell in shown)} |" for name in results.CLASSES)]
 
 
 def of_requirement(one: Requirement, shown: list[Shown]) -> list[str]:
@@ -49,7 +49,7 @@ def of_requirement(one: Requirement, shown: list[Shown]) -> list[str]:
 
 
 def of_fault(cells: list[Shown]) -> str:
-    worst = min(cells, key=lambda cell: (requirements.CLASSES.index(cell.worst), math.inf if cell.margin_ms is None else cell.margin_ms))
+    worst = min(cells, key=lambda cell: (results.CLASSES.index(cell.worst), math.inf if cell.margin_ms is None else cell.margin_ms))
 
     def extreme(of, key: str) -> str:
         value = of((getattr(cell, key) for cell in cells if getattr(cell, key) is not None), default=None)

@@ -7,6 +7,7 @@ from reed_tools import folders, streams
 from reed_tools.engine import options as engine_options
 from reed_tools.errors import UsageError
 from reed_tools.map import grid, measured
+from reed_tools.record.whole_file import write_text
 from reed_tools.run import in_memory
 
 FILE, PICTURE = "map.json", "map.png"
@@ -46,7 +47,7 @@ def run(arguments) -> int:
         maps = measured.measure(arguments, grids, fixed, nominal)
         result = {"scenario": arguments.scenario, "build": in_memory.build(), "nominal": nominal.text(), **maps[0].as_json(),
                   "maps": [one.as_json() for one in maps]}
-        (folder / FILE).write_text(json.dumps(result, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        write_text(folder / FILE, json.dumps(result, indent=1, allow_nan=False) + "\n")
         from reed_tools.map import borders, picture
 
         picture.draw(arguments.scenario, maps, folder / PICTURE)

@@ -16,7 +16,7 @@ PYTEST_CLOSING = re.compile(r"^(=+ .*(passed|failed|error|deselected|no tests ra
 GTEST_CLOSING = re.compile(r"^\[  (PASSED|FAILED)  \]|Sanitizer: |runtime error:")
 TIDY_CLOSING = re.compile(r"(error|warning): .*\[[\w.-]+")
 PYTEST_NO_TEST = 5
-MOST_WORKERS = 3  # one of them flies as long as the others together need for the rest
+MOST_WORKERS = 3  # one of them has the runs by the clock, as long as the others together need for the rest
 
 # By Clang: 28 s of processor time for the controller's cycle, GCC's sanitizers take 64.
 CLANG = "-DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14"
