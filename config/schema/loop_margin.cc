@@ -180,17 +180,16 @@ bool Enough(const LoopMargin& margin, const LoopMargin& needed) {
 }
 
 double LargestKd(JointLoop loop, const LoopMargin& needed) {
-  const double own = loop.K_d;
-  double passes = 0.0, fails = own;
+  double passes = 0.0, fails = loop.K_d;
   // Down to 0.9^66 < 0.001 of it. Counted: the least numbers times 0.9 are themselves, rounded.
   constexpr int kSteps = 66;
-  loop.K_d = own;
-  for (int i = 0; i < kSteps; ++i, loop.K_d *= 0.9) {
+  for (int i = 0; i < kSteps && passes == 0.0; ++i) {
     if (Enough(MarginOf(loop), needed)) {
       passes = loop.K_d;
-      break;
+    } else {
+      fails = loop.K_d;
+      loop.K_d *= 0.9;
     }
-    fails = loop.K_d;
   }
   for (int i = 0; i < 10 && passes > 0.0; ++i) {
     loop.K_d = 0.5 * (passes + fails);
