@@ -29,7 +29,7 @@ ARROWS = {
     "campaign": {"engine", "figures", "record", "robots", "run", "show"},
     "worst": {"campaign", "engine", "run"},
     "faults": {"engine", "record", "run", "show"},
-    "map": {"campaign", "engine", "run", "show", "worst"},
+    "map": {"campaign", "engine", "record", "run", "show", "worst"},
     "paper": {"engine", "figures", "record", "robots", "run", "show"},
     "bode": {"robots", "run", "show"},
     "tune": {"campaign", "engine", "record", "robots", "run", "scenarios", "show"},

@@ -22,7 +22,7 @@ def draw(scenario: str, maps: list, target: Path) -> None:
             shown = panel(axis, one) or shown
         if shown is not None:
             figure.colorbar(shown, ax=axes, label="margin to the limits", shrink=0.8)
-        figure.suptitle(f"{scenario}\nblack: border of the limits, orange: border of stability; grey: not stable, hatched: refused at start")
+        figure.suptitle(f"{scenario}\nborder of the limits: black, of stability: orange\ngrey: not stable, hatched: refused at start", fontsize="medium")
         figure.savefig(target)
         plt.close(figure)
 
