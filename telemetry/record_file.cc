@@ -17,7 +17,7 @@ constexpr std::int64_t kFlushRecords = 512;
 constexpr std::size_t kBufferBytes = kFlushRecords * 2048;
 }  // namespace
 
-RecordBuffer MakeRecordBuffer() { return std::make_unique<char[]>(kBufferBytes); }
+RecordBuffer MakeRecordBuffer() { return std::make_unique_for_overwrite<char[]>(kBufferBytes); }
 
 FileHandle OpenRecordFile(const std::string& what, const std::string& path) {
   if (path.empty()) return nullptr;

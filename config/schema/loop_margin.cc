@@ -75,7 +75,7 @@ bool Stable(MatrixXd F, double gain) {
   F.row(6) *= gain;
   // F^(2^k): it vanishes or grows without bound. 2^24 periods tell a radius of 1 - 1e-6 from 1.
   for (int k = 0; k < 24; ++k) {
-    F = (F * F).eval();
+    F = F.lazyProduct(F).eval();  // the kernel for large matrices costs four times this
     const double size = F.cwiseAbs().maxCoeff();
     if (size < 1e-9) return true;
     if (!(size < 1e150)) return false;
@@ -97,6 +97,9 @@ double GainMargin(const MatrixXd& F) {
   return stable;
 }
 
+/// Without the checks for infinite parts that the operator makes, a third of the time of a phase margin.
+Complex Quotient(Complex a, Complex b) { return a * std::conj(b) / std::norm(b); }
+
 /// θ over the torque held through a period: rotor and link moving as one, and against each other on the spring.
 class MotorAngle {
  public:
@@ -112,8 +115,8 @@ class MotorAngle {
   }
 
   Complex operator()(Complex z) const {
-    return rigid_ * (z + 1.0) / ((z - 1.0) * (z - 1.0)) +
-           bending_ * (b_1_ * z + b_2_) / ((z + a_1_) * z + a_2_);
+    return Quotient(rigid_ * (z + 1.0), (z - 1.0) * (z - 1.0)) +
+           Quotient(bending_ * (b_1_ * z + b_2_), (z + a_1_) * z + a_2_);
   }
 
  private:
@@ -133,8 +136,8 @@ class OpenLoop {
 
   Complex operator()(double w) const {
     const Complex z = std::polar(1.0, w * T_);
-    const Complex speed = share_ / T_ * (z - 1.0) / (z - 1.0 + share_);
-    return (velocity_gain_ * speed + position_gain_) * angle_(z) / z;
+    const Complex speed = Quotient(share_ / T_ * (z - 1.0), z - 1.0 + share_);
+    return (velocity_gain_ * speed + position_gain_) * angle_(z) * std::conj(z);  // 1/z
   }
   bool Amplifies(double w) const { return std::norm((*this)(w)) > 1.0; }
 

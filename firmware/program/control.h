@@ -22,6 +22,7 @@ struct ControlOptions {
   bool enable = false;  // the operator's wish to open the brakes
   bool quiet = false;
   bool lcm = true;
+  bool lock_memory = true;  // lockstep may leave it unlocked
   bool seccomp = false;     // any system call that a cycle does not need ends the program
   bool host_pause = false;  // a bench's host may pause: what is missed meanwhile does not stop the arm
   /// What the loop's thread does for others inside the loop, counted by them; nullptr: nothing.

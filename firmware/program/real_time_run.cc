@@ -42,7 +42,7 @@ RealTimeRun RunInRealTime(const ControlOptions& options, const ControllerConfig&
   const std::atomic<bool>& stop = rt::StopFlag();
   const bool realtime = options.clock == rt::ClockKind::kRealtime;
   rt::RealtimeOptions wanted{realtime ? scenario.timing.priority : 0,
-                             realtime ? LoopCore(scenario.timing) : scenario.timing.cpu, true};
+                             realtime ? LoopCore(scenario.timing) : scenario.timing.cpu, options.lock_memory};
   std::optional<rt::HostPauseWatch> pauses;  // a thread: before memory is locked
   const std::string unwatched =
       options.host_pause ? pauses.emplace().Start(wanted.cpu, wanted.priority + 1) : "";

@@ -22,6 +22,7 @@ constexpr int kBatch = 64;
 
 Publisher::Publisher(const PublisherConfig& config)
     : config_(config),
+      queue_(config.when_full == WhenFull::kWait ? kWaitingCapacity : kCapacity),
       log_(config.log_path),
       network_("", config.network),
       limits_(std::variant_size_v<Record>, {kPublishPerSecond, kPublishBurst}) {

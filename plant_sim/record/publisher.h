@@ -47,7 +47,8 @@ class Publisher final : public RecordSink {
   std::int64_t dropped() const noexcept { return dropped_; }
 
  private:
-  static constexpr std::size_t kCapacity = 4096;  // four seconds of 1 kHz
+  /// Four seconds of 1 kHz; who waits for room needs what comes between two looks of the thread.
+  static constexpr std::size_t kCapacity = 4096, kWaitingCapacity = 1024;
   /// Per channel: what a listener is spared in lockstep.
   static constexpr std::int64_t kPublishPerSecond = 1000, kPublishBurst = 100;
 
@@ -58,7 +59,7 @@ class Publisher final : public RecordSink {
   void Publish(const Record& record);
 
   PublisherConfig config_;
-  rt::SpscRing<Record> queue_{kCapacity};
+  rt::SpscRing<Record> queue_;
   MessageEncoder encoder_;
   telemetry::EventLog log_;
   telemetry::LcmPublisher network_;

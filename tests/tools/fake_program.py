@@ -22,6 +22,7 @@ def main() -> int:
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--no-lcm", action="store_true")
     parser.add_argument("--host-pause", action="store_true")
+    parser.add_argument("--leave-memory-unlocked", action="store_true")
     parser.add_argument("--set", action="append")
     options = parser.parse_args()
     ctypes.CDLL(None).prctl(1, 0)  # as the kernel does for a program with file capabilities: no signal when its parent ends

@@ -23,6 +23,8 @@ OneProcessOptions ParseOneProcessOptions(int argc, char** argv) {
   app.add_option("--candump", options.control.candump, "CAN log in candump -L format");
   app.add_option("--tape", options.control.tape, "all that a replay of the controller needs, cycle by cycle");
   app.add_option("--tape-commit", options.control.commit, "the programs' commit, as the tape names it");
+  app.add_flag("!--leave-memory-unlocked", options.control.lock_memory,
+               "for many runs whose page faults nobody counts: a fifth of a start");
   app.add_flag("--quiet", options.control.quiet, "print errors only");
   app.add_flag("!--no-lcm", options.control.lcm, "do not publish on the LCM network");
   try {

@@ -61,10 +61,9 @@ def join(recording: Recording) -> Signals | None:
         recording.tables[name] for name in ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT"))
     if not all(recording.has(name) for name in ("REED_MEASURED", "REED_CONTROL", "REED_ADAPTATION", "REED_PLANT")):
         return None
-    active = control["cycle"][control["mode"] == ACTIVE]
-    cycles = active
+    cycles = np.unique(control["cycle"][control["mode"] == ACTIVE])
     for table in (measured, adaptation, plant):
-        cycles = np.intersect1d(cycles, table["cycle"])
+        cycles = cycles[np.isin(cycles, table["cycle"])]
     if not len(cycles):
         return None
 

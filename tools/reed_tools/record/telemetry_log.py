@@ -114,8 +114,8 @@ def load(*paths: Path) -> Recording:
     last = int(recording.tables["REED_MEASURED"]["cycle"].max()) if recording.has("REED_MEASURED") else -1
     for channel in DIGEST_CHANNELS:
         # The plant may answer a SYNC after the controller's last recorded cycle.
-        kept = whole[channel][recording.tables[channel]["cycle"] <= last]
-        recording.channel_digests[channel] = hashlib.sha256(kept).hexdigest()
+        kept = recording.tables[channel]["cycle"] <= last
+        recording.channel_digests[channel] = hashlib.sha256(whole[channel] if kept.all() else whole[channel][kept]).hexdigest()
     return recording
 
 

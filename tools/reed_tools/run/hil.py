@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from reed_tools.record.log_tail import ACTIVE, LogTail
-from reed_tools.run.guard import Guard
+from reed_tools.run import guard
 
 PROGRAM = Path(__file__).with_name("pair.py")
 POLL_S = 0.05
@@ -39,6 +39,7 @@ class Plan:
     most_cycles: int  # more than the scenario and its start can need
     lcm: bool = True  # publish on the LCM network too
     candump: bool = True  # keep every frame, and the tape
+    lock_memory: bool = True  # on a bus in memory many runs may leave it unlocked; nobody counts their page faults
     commit: str = ""  # of the programs, for the tape
     law: str = ""  # of the firmware's --law; "": the scenario's
     environment: dict = field(default_factory=dict)  # what the firmware needs beside the tool's own
@@ -157,32 +158,34 @@ def stop_requests():
 
 
 def run(plan: Plan, on_progress, interrupted: list | None = None) -> Outcome:
-    """Runs the scenario to its end. on_progress(mode, t_s) is called a few times per second. `interrupted`: a list that somebody
-    fills when the run shall end; without it signals ask for that."""
+    """Runs the scenario to its end. on_progress(mode, t_s) is called a few times per second; None: nobody looks.
+    `interrupted`: a list that somebody fills when the run shall end; without it signals ask for that."""
     outcome = Outcome()
-    with Guard() as guard, stop_requests() if interrupted is None else nullcontext(interrupted) as interrupted:
-        (run_one if plan.bus == MEMORY else run_pair)(plan, guard, interrupted, outcome, on_progress)
+    with stop_requests() if interrupted is None else nullcontext(interrupted) as interrupted:
+        (run_one if plan.bus == MEMORY else run_pair)(plan, guard.of_this_tool(), interrupted, outcome, on_progress)
         outcome.interrupted = bool(interrupted)
     return outcome
 
 
-def run_one(plan: Plan, guard: Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
+def run_one(plan: Plan, guarded: guard.Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
     name = "one_process"
-    both = start(name, plan, ["--log", str(plan.log("firmware")), "--plant-log", str(plan.log("plant")), *controls(plan)])
-    guard.watch(both)
+    both = start(name, plan, ["--log", str(plan.log("firmware")), "--plant-log", str(plan.log("plant")), *controls(plan),
+                               *([] if plan.lock_memory else ["--leave-memory-unlocked"])])
+    guarded.watch(both)
     try:
         watch(plan, both, both, interrupted, outcome, on_progress)
     finally:
         outcome.statuses = {name: stop(both)}
+        guarded.forget(both)
         tell_end(plan, on_progress)
 
 
-def run_pair(plan: Plan, guard: Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
+def run_pair(plan: Plan, guarded: guard.Guard, interrupted: list, outcome: Outcome, on_progress) -> None:
     plant = start("plant", plan, on_bus("plant", plan))
-    guard.watch(plant)
+    guarded.watch(plant)
     await_bus(plan, plant, interrupted)
     firmware = start("firmware", plan, [*on_bus("firmware", plan), *controls(plan)])
-    guard.watch(firmware)
+    guarded.watch(firmware)
     try:
         watch(plan, plant, firmware, interrupted, outcome, on_progress)
     finally:
@@ -192,6 +195,8 @@ def run_pair(plan: Plan, guard: Guard, interrupted: list, outcome: Outcome, on_p
         died = plant.poll()
         status = stop(plant)
         plant_status = died if died is not None else (0 if status == -signal.SIGINT else status)
+        guarded.forget(firmware)
+        guarded.forget(plant)
         outcome.statuses = {"plant": plant_status, "firmware": firmware_status}  # its loss of the plant comes second
 
 
@@ -223,7 +228,8 @@ def watch(plan, plant, firmware, interrupted, outcome, on_progress) -> None:
         if now - last_report > 0.25 and (state := tail.control()) is not None:
             last_report = now
             cycle = state[0] - plan.first_cycle
-            tell_progress(tail, state, on_progress)
+            if on_progress is not None:
+                tell_progress(tail, state, on_progress)
             if cycle > plan.most_cycles:
                 outcome.stopped_because = f"the scenario was not done after {cycle} cycles"
                 return
@@ -239,7 +245,7 @@ def tell_progress(tail: LogTail, state: tuple[int, int, float], on_progress) -> 
 def tell_end(plan: Plan, on_progress) -> None:
     """Where the run ended, not where it was when last looked at."""
     tail = LogTail(plan.log("firmware"))
-    if (state := tail.control()) is not None:
+    if on_progress is not None and (state := tail.control()) is not None:
         tell_progress(tail, state, on_progress)
 
 

@@ -48,5 +48,5 @@ def build() -> str:
 def run(effective: dict, config: Path | str, folder: Path, interrupted: list | None = None, entries: list[str] = ()) -> Ended:
     """`effective`: the content of `config` as far as it decides how long the run may be. Ends early once `interrupted` is not empty;
     without that list, at a signal."""
-    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder, lcm=False, candump=False, entries=list(entries))
-    return Ended(plan, hil.run(plan, lambda mode, t_s: None, interrupted))
+    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder, lcm=False, candump=False, lock_memory=False, entries=list(entries))
+    return Ended(plan, hil.run(plan, None, interrupted))
