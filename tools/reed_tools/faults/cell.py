@@ -13,6 +13,7 @@ from reed_tools.faults.catalogue import as_override
 from reed_tools.run import hil, in_memory, scenario
 
 LOST = 3  # status of a program whose bus was lost: for some faults the right end
+START_S = 5.0  # an arm that a fault has not let start by then does not start; with its monitors it says so after 2 s
 NEVER_DONE = "the scenario was not done"  # without its monitors an arm that a fault keeps from starting waits, with its brakes closed
 
 
@@ -69,7 +70,7 @@ def ended(name: str, entries: list[str], interrupted: list) -> tuple[in_memory.E
     """None: interrupted."""
     effective = effective_of(name)
     with tempfile.TemporaryDirectory(prefix="reed-fault-") as scratch:
-        done = in_memory.run(effective, name, Path(scratch), interrupted, entries)
+        done = in_memory.run(effective, name, Path(scratch), interrupted, entries, START_S)
         if done.outcome.interrupted:
             return None
         if done.status == hil.REFUSED:

@@ -45,8 +45,9 @@ def build() -> str:
     return versions.build(programs())
 
 
-def run(effective: dict, config: Path | str, folder: Path, interrupted: list | None = None, entries: list[str] = ()) -> Ended:
-    """`effective`: the content of `config` as far as it decides how long the run may be. Ends early once `interrupted` is not empty;
-    without that list, at a signal."""
-    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder, lcm=False, candump=False, lock_memory=False, entries=list(entries))
+def run(effective: dict, config: Path | str, folder: Path, interrupted: list | None = None, entries: list[str] = (),
+        start_s: float = plans.START_S) -> Ended:
+    """`effective`: the content of `config` as far as it decides how long the run may be; `start_s` is for the arm's start. Ends early
+    once `interrupted` is not empty; without that list, at a signal."""
+    plan = plans.make(effective, config, hil.MEMORY, "lockstep", folder, start_s, lcm=False, candump=False, lock_memory=False, entries=list(entries))
     return Ended(plan, hil.run(plan, None, interrupted))

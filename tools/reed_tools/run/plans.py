@@ -15,9 +15,9 @@ def names(bus: str) -> dict[str, str]:
     return ONE_PROCESS if bus == hil.MEMORY else PAIR
 
 
-def make(effective: dict, config: Path | str, bus: str, clock: str, folder: Path, **options) -> hil.Plan:
+def make(effective: dict, config: Path | str, bus: str, clock: str, folder: Path, start_s: float = START_S, **options) -> hil.Plan:
     """`effective`: the content of the file `config` with its `entries`. `options`: lcm, candump, commit,
     entries, law, environment."""
-    most_cycles = int((effective["scenario"]["duration_s"] + START_S) * effective["timing"]["rate_hz"])
+    most_cycles = int((effective["scenario"]["duration_s"] + start_s) * effective["timing"]["rate_hz"])
     programs = {part: str(program(name)) for part, name in names(bus).items()}
     return hil.Plan(programs, str(config), bus, clock, str(folder), most_cycles, first_cycle=effective["timing"].get("first_cycle", 0), **options)
