@@ -50,6 +50,7 @@ void TimedEndpoint::OnSync(const Incoming& sync) {
     journal().Put(WireRecord{.answers_us = 1e6 * times.answers_s,
                              .command_us = 1e6 * times.command_s,
                              .foreign_s = link.foreign_s(),
+                             .dropped = link.dropped(),
                              .computed_answers_us = computed_answers_us_,
                              .computed_command_us = computed_command_us_});
   }

@@ -38,6 +38,7 @@ void Fill(const WireRecord& r, wire_t& m) {
   m.answers_us = r.answers_us;
   m.command_us = r.command_us;
   m.foreign_s = r.foreign_s;
+  m.dropped = r.dropped;
   m.computed_answers_us = r.computed_answers_us;
   m.computed_command_us = r.computed_command_us;
 }

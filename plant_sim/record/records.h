@@ -42,6 +42,7 @@ struct WireRecord {
   std::int64_t cycle = 0;
   double answers_us = 0.0, command_us = 0.0;
   double foreign_s = 0.0;
+  std::int64_t dropped = 0;
   double computed_answers_us = 0.0, computed_command_us = 0.0;
 };
 

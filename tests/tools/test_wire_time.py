@@ -18,12 +18,12 @@ def run(tmp_path_factory):
     """run(KEY=VALUE, ...): what its telemetry says."""
     build("reed_one_process")
 
-    def recorded(*entries):
+    def recorded(*entries, status=0):
         folder = tmp_path_factory.mktemp("run")
         effective = scenario.write_effective("press_known", None, [f"scenario.duration_s={DURATION_S}", *entries], folder / "effective.toml", halves=True)
         plan = plans.make(effective, folder / "effective.toml", hil.MEMORY, "lockstep", folder, lcm=False)
         outcome = hil.run(plan, lambda mode, t_s: None)
-        assert outcome.statuses == {"one_process": 0} and not outcome.stopped_because, hil.last_words(plan, "one_process")
+        assert outcome.statuses == {"one_process": status} and not outcome.stopped_because, hil.last_words(plan, "one_process")
         return telemetry_log.load(plan.log("firmware"), plan.log("plant"))
 
     return recorded
@@ -59,6 +59,12 @@ def test_others_delay_and_take_their_share(run, alone):
     for figure in ("p50", "max"):
         assert beside["answers_us"][figure] > alone["answers_us"][figure]
     assert beside["answers_us"]["max"] > beside["answers_us"]["computed"] > alone["answers_us"]["max"]
+
+
+def test_frames_that_an_overfull_wire_gives_up_are_counted(run, alone):
+    full = summary.wire_time(run("link.wire_time=true", "timing.rate_hz=2500", "scenario.allow_wire_overload=true", status=1))
+    assert full["dropped"] > 1000 and f"{full['dropped']} frames given up, the wire's queue was full" in result_table.wire_time(full)[0]
+    assert alone["dropped"] == 0 and "given up" not in result_table.wire_time(alone)[0]
 
 
 def test_a_run_without_a_wire_says_nothing_of_one(run):

@@ -39,7 +39,9 @@ def wire_time(wire: dict | None) -> list[str]:
         return []
     parts = [f"{what} after {number(wire[name]['max'], 4)} µs at most, median {number(wire[name]['p50'], 4)} (worst case computed "
              f"{number(wire[name]['computed'], 4)})" for name, what in (("answers_us", "last answer"), ("command_us", "command"))]
-    return [f"wire   {'; '.join(parts)}; others' frames {number(wire['foreign_percent'], 3)} %"]
+    dropped = f"; {wire['dropped']} frames given up, the wire's queue was full" if wire["dropped"] else ""
+    return [f"wire   {'; '.join(parts)}; others' frames {number(wire['foreign_percent'], 3)} %"
+            f"{dropped}"]
 
 
 LOCKED = {True: "locked", False: "not locked", None: "unknown"}  # the firmware reports it at its end

@@ -88,7 +88,8 @@ def wire_time(recording: Recording) -> dict | None:
         return None
     figures = {f"{name}_us": metrics.percentiles(wire[f"{name}_us"][1:]) | {"computed": round(float(wire[f"computed_{name}_us"][-1]), 3)}
                for name in ("answers", "command")}  # a message is about the cycle before: the first one about none
-    return figures | {"foreign_percent": round(100 * float(wire["foreign_s"][-1] - wire["foreign_s"][0]) / lasted_s, 3)}
+    return figures | {"foreign_percent": round(100 * float(wire["foreign_s"][-1] - wire["foreign_s"][0]) / lasted_s, 3),
+                      "dropped": int(wire["dropped"][-1])}
 
 
 def clock_figures(recording: Recording, rate_hz: float) -> dict:
