@@ -1,8 +1,10 @@
-"""Writes docs/reference.md from its sources: bus/reed.dbc, lcmtypes, the events' headers, the command line.
+"""Writes docs/reference.md from its sources: bus/reed.dbc, lcmtypes, the events' headers, the command line; and the tables of keys in
+config/README.md from reed_config.
 
     build/venv/bin/python3 docs/make_reference.py"""
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -12,11 +14,13 @@ sys.path.insert(0, str(ROOT / "tools"))
 import cantools  # noqa: E402
 
 from reed_tools import cli  # noqa: E402
+from reed_tools.paths import build, program  # noqa: E402
 from reed_tools.record import event_names  # noqa: E402
 from reed_tools.record.message_layout import fields  # noqa: E402
 from reed_tools.record.telemetry_log import SINGLES, TABLES  # noqa: E402
 
 TARGET = ROOT / "docs" / "reference.md"
+KEYS = ROOT / "config" / "README.md"
 HEADERS = ("firmware/core/safety/reason.h", "plant_sim/record/records.h")
 
 
@@ -94,5 +98,17 @@ From `{HEADERS[0]}` and `{HEADERS[1]}`.
 """
 
 
+def with_keys(readme: str) -> str:
+    """config/README.md with the tables of keys as reed_config prints them."""
+    build("reed_config_tool")
+    for option, first in (("--keys", "scenario.name"), ("--arm-keys", "name")):
+        printed = subprocess.run([program("reed_config"), option], capture_output=True, text=True, check=True).stdout
+        head = "".join(printed.splitlines(keepends=True)[:2]) + f"| {first} |"
+        readme, tables = re.subn(rf"^{re.escape(head)}.*\n(?:\|.*\n)*", lambda _: printed, readme, flags=re.M)
+        assert tables == 1, f"{KEYS}: {tables} tables begin as reed_config {option} does"
+    return readme
+
+
 if __name__ == "__main__":
     TARGET.write_text(text())
+    KEYS.write_text(with_keys(KEYS.read_text()))
