@@ -32,6 +32,8 @@ class Stage:
     command: list[str]
     closing: re.Pattern
     nothing_to_do: tuple[int, ...] = ()   # statuses that mean: the filter left nothing
+    before: str | None = None             # what `command` needs; silent, and what it fails at `command` says
+    leaves_time: bool = False             # it waits for clocks: the `before` of later stages may go on beside it
     results: list[Path] = field(default_factory=list)  # JUnit files that its runner writes
     ok: bool = False
     seconds: float = 0.0
@@ -42,19 +44,19 @@ LONGEST_TEST_S = 86400  # in the long mode
 
 
 def all_stages(filters: list[str], long: bool = False) -> list[Stage]:
-    """In the order of running: quick ones first, the runners that everybody knows last."""
+    """In the order of running: quick ones first. The sanitizers are compiled while the runs of the Python stage wait for clocks."""
     def wanted(name: str) -> bool:
         return not filters or name in filters
 
     stages = [layout()] if wanted("layout") else []
     if wanted("tidy"):
         stages.append(tidy(everything="tidy" in filters))
-    stages += [sanitizer(name) for name in SANITIZED if wanted(name)]
     if wanted("gate"):
         stages.append(gate())
     names = [text for text in filters if text not in ("layout", "tidy", "gate", *SANITIZED)]
     if names or not filters:
         stages += [ctest(names, False, long), ctest(names, True, long), pytest(names)]
+    stages += [sanitizer(name) for name in SANITIZED if wanted(name)]
     return [stage for stage in stages if stage]
 
 
@@ -129,15 +131,17 @@ def pytest(names: list[str]) -> Stage:
         command += ["-n", str(min(CORES, MOST_WORKERS)), "--dist", "loadscope"]  # tests/conftest.py says what stays together
     else:
         command += ["-k", " or ".join(re.sub(r"\W+", "_", text) for text in names)]
-    return Stage("Python tests and whole runs", command, PYTEST_CLOSING, nothing_to_do=(PYTEST_NO_TEST,) if names else (), results=[junit])
+    return Stage("Python tests and whole runs", command, PYTEST_CLOSING, nothing_to_do=(PYTEST_NO_TEST,) if names else (), leaves_time=True, results=[junit])
 
 
 def sanitizer(name: str) -> Stage:
     build, targets = ROOT / "build" / name, SANITIZED[name]
-    steps = [f"cmake --fresh --preset {name} {CLANG} -DREED_PYTHON={sys.executable} -DREED_JOINTS=5 >{build}.log", f"ninja -C {build} {' '.join(targets)} >>{build}.log",
+    compiled = f"ninja -C {build} -j {CORES} {' '.join(targets)} >>{build}.log"
+    configured = f"cmake --fresh --preset {name} {CLANG} -DREED_PYTHON={sys.executable} -DREED_JOINTS=5 >{build}.log"
+    steps = [compiled,
              # A sanitizer has an allocator of its own, which HeapCountTest cannot count, and makes system calls of its own, which
              # the guard of the loop's calls rightly kills; a thread sanitizer's shadow memory is too large to be locked.
              *(f"{build}/bin/{target} --gtest_brief=1 --gtest_filter=-SyscallGuard.*:RealtimeScope.*:HeapCountTest.* --gtest_output=xml:{build / target}.xml"
                for target in targets)]
     return Stage(f"{name}: {', '.join(targets)}", ["bash", "-c", " && ".join(steps) + f" || {{ tail -5 {build}.log; exit 1; }}"],
-                 GTEST_CLOSING, results=[build / f"{target}.xml" for target in targets])
+                 GTEST_CLOSING, before=f"{configured} && {compiled}", results=[build / f"{target}.xml" for target in targets])
