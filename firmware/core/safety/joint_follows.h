@@ -18,7 +18,7 @@ template <int N>
 class JointFollows {
  public:
   static constexpr double kStill_rad = 1e-3;  // a closed brake gives way by less
-  static constexpr double kForget_s = 0.2;
+  static constexpr double kForget_s = 0.1;
 
   /// T: s
   JointFollows(double stuck_rad, double frozen_rad, double T) noexcept
