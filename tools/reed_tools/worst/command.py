@@ -75,7 +75,7 @@ def look(arguments, campaign: Campaign, space: Space, folder: Path) -> tuple[int
     show(space, worst, shrunk, result)
     if not arguments.no_keep:
         case = {"campaign": campaign.name, "scenario": campaign.scenario, "entries": shrunk.result.record.overrides,
-                "figure": shrunk.result.aim, "ratio": finite(shrunk.ratio)}
+                "figure": shrunk.result.aim, "value": shrunk.result.value, "ratio": finite(shrunk.ratio)}
         print(f"{'kept in' if cases.add(arguments.cases, case) else 'already in'} {arguments.cases}")
     print(f"result  {folder / FILE}")
     return (1 if worst.ratio > 1.0 else 0), result

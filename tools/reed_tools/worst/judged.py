@@ -27,6 +27,12 @@ class Judged:
         check = self.record.deciding
         return check["name"] if check else self.record.status
 
+    @property
+    def value(self) -> float | None:
+        """Of that figure."""
+        check = self.record.deciding
+        return check["value"] if check else None
+
     def line(self, scenario: str) -> str:
         words = ["tools/reed", "run", scenario, "--bus", "memory"]
         for entry in self.record.overrides:
