@@ -24,6 +24,18 @@ def test_what_it_writes_passes_at_once(arm, what, tmp_path):
         assert summary["windows"][2]["force_rms_N"] < 0.03 * 8
 
 
+@pytest.mark.parametrize("name, allows", [("so100", True), ("ur3", False)])
+def test_a_wall_that_a_light_arm_meets_early_stops_nothing(name, allows, tmp_path):
+    """The joint that the wall stops is as fast as a tenth of its limit."""
+    (tmp_path / "robot.urdf").write_text(text_of(name))
+    tip = ["--tip", ROBOTS[name][1]] if ROBOTS[name][1] else []
+    assert reed("arm", "import", tmp_path / "robot.urdf", *tip, "--out", tmp_path / "robot.toml").returncode == 0
+    assert reed("scenario", "new", "--arm", tmp_path / "robot.toml", "--press", "8", "--out", tmp_path / "press.toml").returncode == 0
+    assert ("following_error_share" in (tmp_path / "press.toml").read_text()) == allows
+    done = reed("run", tmp_path / "press.toml", "--bus", "memory", "--set", "wall.offset_m=0.001", "--out", tmp_path / "run")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 @pytest.mark.parametrize("argv, said", [
     (["--arm", "a5", "--press", "0"], "--press 0: allowed: 0.5 ... 500 N"),
     (["--arm", "a5", "--press", "400"], "in none of 3000 poses is it clear of singularities and limits while it presses 400 N"),

@@ -4,7 +4,7 @@ import numpy as np
 
 from reed_tools.robots.nominal import NominalArm
 from reed_tools.scenarios import gains
-from reed_tools.scenarios.pose import FREQUENCY_HZ, find, reach_of
+from reed_tools.scenarios.pose import FREQUENCY_HZ, Pose, find, follow, reach_of
 
 NORMAL = np.array([0.0, 0.0, 1.0])  # a floor
 APPROACH_m, APPROACH_s = 0.004, 0.4
@@ -12,6 +12,8 @@ WALL_LOWER_m = 0.001           # than believed
 STIFFNESS_Npm = 10000.0
 PRESS_SLIDE, FREE_SLIDE = 0.025, 0.05  # amplitude as a share of the reach, above 2 cm nothing is gained by more when pressing
 LARGEST_SLIDE_m = 0.02
+PEAK = 1.875                   # largest speed of a leg, times its mean
+FOLLOWING_SHARE, IMPACT = 0.1, 1.5  # limits.following_error_share as it is, and what an impact may make of a joint's speed
 FORCE_LIMIT = (60.0, 2.5)      # N, and times the desired force: contact force that trips
 LOOP_CHECKS = """[[checks]]
 name = "torque_ripple_percent_last_second"   # more is an oscillation
@@ -70,7 +72,7 @@ ramp_s = 0.5
 
 [limits]
 contact_force_N = {limit:g}
-
+{following_error(arm, pose)}
 [sensors]
 force_range_N = {max(200.0, 2 * limit):g}
 {plant(arm)}
@@ -84,6 +86,15 @@ limit = 3.0
 {LOOP_CHECKS}"""
 
     return gains.accepted(gains.by_rule(arm, pose.q), text)
+
+
+def following_error(arm: NominalArm, pose: Pose) -> str:
+    """A wall that is met early stops the joints at once. Where that is more than the usual following error, it is allowed."""
+    below = follow(arm.chain, pose.q, -APPROACH_m * NORMAL, pose.q)
+    if below is None:
+        return ""
+    share = float((IMPACT * PEAK * np.abs(below - pose.q) / APPROACH_s / arm.speed_limit).max())
+    return f"following_error_share = {np.ceil(100 * share) / 100:g}   # a wall that is met early stops the joints at once\n" if share > FOLLOWING_SHARE else ""
 
 
 def free(arm: NominalArm, arm_file: str) -> str:
