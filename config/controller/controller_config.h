@@ -95,7 +95,7 @@ struct LimitConfig {
   double speed_error_share = 0.05;
   double unexplained_torque_share = 0.1;
   double following_error_share = 0.1;
-  double stuck_rad = 0.01;
+  double stuck_rad = 0.012;
   double standstill_rad = 0.01;
   double tip_speed_mps = 0.0;  // 0: none
   double power_W = 0.0;        // 0: none

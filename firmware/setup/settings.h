@@ -79,7 +79,7 @@ protect::LimitValues<N> LimitsFrom(const ControllerConfig& scenario, const model
 
 template <int N, int P>
 protect::MonitorValues<N> MonitorsFrom(const ControllerConfig& scenario, const model::ArmModel<N, P>& arm) {
-  constexpr double kFrozenShare = 0.2;
+  constexpr double kFrozenShare = 1.0 / 3.0;
   constexpr double kSteps = 4.0;     // of an encoder: a slow joint stays on one until it comes to the next
   constexpr double kReversal = 2.0;  // Coulomb friction changes by twice itself where a joint turns round
   const LimitConfig& limits = scenario.limits;

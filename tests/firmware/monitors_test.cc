@@ -84,7 +84,7 @@ TEST(JointFollows, AStuckAngleIsFoundWhenTheClosedFormSays) {
 }
 
 TEST(JointFollows, AnAngleThatDoesNotChangeAtAllIsFoundSooner) {
-  const double v = 0.045, frozen_rad = 0.004, tau = JointFollows<N>::kForget_s;
+  const double v = 0.045, frozen_rad = 0.004, tau = JointFollows<N>::kForgetFrozen_s;
   for (const bool frozen : {true, false}) {
     JointFollows<N> monitor(0.02, frozen_rad, T);
     Measurement<N> m = Fresh();

@@ -1,8 +1,9 @@
 // A joint that shall move and whose angle does not change: its brake is closed, its encoder is stuck, or it is blocked. RT: safe.
 //
-//   w_k = (1 − T/τ) w_k−1 + T v      v: the law's speed (24), rad/s; τ = kForget_s
-//   |w| > stuck_rad    while θ stays within kStill_rad of where w began
-//   |w| > frozen_rad   while θ does not change at all: a joint at rest, too, gives way by some steps of its encoder
+//   w_k = (1 − T/τ) w_k−1 + T v      v: the law's speed (24), rad/s
+//   |w| > stuck_rad    with τ = kForget_s, while θ stays within kStill_rad of where w began
+//   |w| > frozen_rad   with τ = kForgetFrozen_s, while θ does not change at all: a joint at rest, too, gives way by some
+//                      steps of its encoder, but not within every 0.1 s
 //
 // w forgets, so that a standing error (friction at rest) is no motion: it takes |v| > stuck_rad / τ.
 #pragma once
@@ -18,7 +19,7 @@ template <int N>
 class JointFollows {
  public:
   static constexpr double kStill_rad = 1e-3;  // a closed brake gives way by less
-  static constexpr double kForget_s = 0.1;
+  static constexpr double kForget_s = 0.1, kForgetFrozen_s = 0.2;
 
   /// T: s
   JointFollows(double stuck_rad, double frozen_rad, double T) noexcept
@@ -42,7 +43,7 @@ class JointFollows {
       if (theta != last_[i]) idle_[i] = 0.0;
       last_[i] = theta;
       wanted_[i] += T_ * (v[i] - wanted_[i] / kForget_s);
-      idle_[i] += T_ * (v[i] - idle_[i] / kForget_s);
+      idle_[i] += T_ * (v[i] - idle_[i] / kForgetFrozen_s);
       const bool stands = std::abs(wanted_[i]) > stuck_rad_ || std::abs(idle_[i]) > frozen_rad_;
       if (stands && check.trip == Reason::kNone) check = {Reason::kJointDoesNotFollow, i, wanted_[i], 0};
     }
