@@ -6,8 +6,10 @@
 
 #include "reed/bench/inputs.h"
 #include "reed/config/controller/controller_config.h"
-#include "reed/core/controller.h"
-#include "reed/firmware/setup/settings.h"
+#include "reed/firmware/controller/for_joints.h"
+
+REED_CONTROLLER_FOR(extern, 5)
+REED_SET_UP_FOR(extern, 5)
 
 namespace reed::bench {
 

@@ -4,11 +4,15 @@
 
 #include "reed/config/controller/load_controller_config.h"
 #include "reed/embedded/settings_image.h"
-#include "reed/firmware/setup/settings.h"
+#include "reed/firmware/controller/for_joints.h"
 #include "reed/rt/program.h"
+
+REED_SET_UP_FOR(extern, 5)
 
 namespace reed::embedded {
 namespace {
+
+static_assert(N == 5 && P == kLoopParameters<N>);
 
 void Print(double value) {
   std::printf("%.17g,\n", value > 1e300 ? 1e300 : (value < -1e300 ? -1e300 : value));

@@ -27,29 +27,12 @@ class Controller {
  public:
   /// path: the planned motion, over knots that outlive this object. external: the law where settings.law is kExternal.
   Controller(const Settings<N, P>& settings, reference::JointPath<N> path,
-             const strategy::ExternalLaw* external = nullptr) noexcept
-      : settings_(settings),
-        strategy_(settings_, path, external),
-        limits_(settings_.limits),
-        supervisor_(settings_.start_wanted),
-        watch_(settings_.period_s()),
-        monitors_(settings_.monitors, settings_.period_s()),
-        T_(settings_.period_s()) {}
+             const strategy::ExternalLaw* external = nullptr) noexcept;
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
   /// One period: estimate, decide, control, protect.
-  const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept {
-    events_.Clear();
-    check_ = Watch(measured, state);                                   // estimate
-    Decide(measured, state);                                           // decide
-    const strategy::Decision<N>& decision = Control(measured, state);  // control
-    command_.torque = Protect(decision, measured, state);              // protect: the last gate
-    command_.request = supervisor_.Request();
-    NoteDecision(decision);
-    was_active_ = was_active_ || active();
-    return command_;
-  }
+  const Command<N>& Step(const Measurement<N>& measured, const CycleState& state) noexcept;
 
   /// Nothing more to do: the run or the fault ended long enough ago for the drives and the record.
   bool finished(bool stop_wanted) const noexcept {
@@ -201,5 +184,30 @@ class Controller {
   TripPlace trip_place_;
   bool was_active_ = false;
 };
+
+// Not in the class, where they would be inline: whoever has them compiled elsewhere (extern template) does not compile them.
+template <int N, int P>
+Controller<N, P>::Controller(const Settings<N, P>& settings, reference::JointPath<N> path,
+                             const strategy::ExternalLaw* external) noexcept
+    : settings_(settings),
+      strategy_(settings_, path, external),
+      limits_(settings_.limits),
+      supervisor_(settings_.start_wanted),
+      watch_(settings_.period_s()),
+      monitors_(settings_.monitors, settings_.period_s()),
+      T_(settings_.period_s()) {}
+
+template <int N, int P>
+const Command<N>& Controller<N, P>::Step(const Measurement<N>& measured, const CycleState& state) noexcept {
+  events_.Clear();
+  check_ = Watch(measured, state);                                   // estimate
+  Decide(measured, state);                                           // decide
+  const strategy::Decision<N>& decision = Control(measured, state);  // control
+  command_.torque = Protect(decision, measured, state);              // protect: the last gate
+  command_.request = supervisor_.Request();
+  NoteDecision(decision);
+  was_active_ = was_active_ || active();
+  return command_;
+}
 
 }  // namespace reed

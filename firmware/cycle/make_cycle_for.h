@@ -6,16 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "reed/firmware/controller/for_joints.h"
 #include "reed/firmware/cycle/cycle.h"
-#include "reed/firmware/setup/settings.h"
 
 namespace reed {
-
-/// Parameters the loop has room for. Unused columns of Y are zero and cost time, and every capacity costs a
-/// translation unit that compiles for half a minute, so each number of joints gets one: 7 and the known part
-/// fill two AVX registers.
-template <int N>
-inline constexpr int kLoopParameters = N <= 5 ? 7 : kMaxParameters;
 
 template <int N>
 std::unique_ptr<CycleBase> MakeCycleFor(const ControllerConfig& scenario, bus::Transport& transport,

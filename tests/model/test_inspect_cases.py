@@ -100,6 +100,19 @@ def test_the_tool_offset_beside_the_cases_replaces_the_arms(inspect):
     assert np.allclose(np.array(moved["T"])[:3, 3], last_origin + T[:3, :3] @ [0.1, 0.2, 0.3], atol=1e-14)
 
 
+def test_more_parameters_than_the_loop_has_room_for_are_inspected_without_the_law(inspect, inspect_program, tmp_path):
+    body = {"mass": 1.0, "com": [0, 0.1, 0], "inertia_about_com": np.diag([0.01, 0.01, 0.01]).tolist()}
+    names = [f"m{k}" for k in range(8)]
+    arm = {"name": "eight", "dh": [[0.3, 0.1, 0.2], [0.3, 0.1, 0.2]], "gravity": [0, 0, -9.81], "bodies": [body] * 2, "p_true": [1.0] * 8,
+           "param_names": names,
+           "param_shapes": [{"param": name, "body": 1, "mass": 1.0, "com": [0, 0.1, 0]} for name in names]}
+    state = {"q": [0.1, 0.2], "qd": [0.0, 0.1], "v": [0.0, 0.1], "vd": [0.1, 0.1]}
+    assert np.array(inspect(arm, [state], tmp_path)[0]["Y"]).shape == (2, 8)
+    law = {**state, **dict.fromkeys(("dq", "q_d", "dq_d", "ddq_d"), [0.0, 0.0]), "Kd": [1.0, 1.0], "Lambda": [1.0, 1.0]}
+    done = run(inspect_program, "--arm", str(tmp_path / "eight.json"), "--states", "-", text=json.dumps({"cases": [law]}))
+    assert done.returncode == 2 and "Kd: the arm has 8 parameters; the loop of 2 joints allows 0 ... 7" in done.stderr
+
+
 @pytest.mark.parametrize("joints", range(1, 9))
 def test_every_number_of_joints_is_answered(joints, inspect, tmp_path):
     arm = {"name": f"chain{joints}", "dh": [[0.3, 0.1 if i else 0.0, 0.2] for i in range(joints)],

@@ -5,11 +5,13 @@
 #include <cstdlib>
 
 #include "reed/config/schema/halves.h"
-#include "reed/core/controller.h"
-#include "reed/firmware/setup/settings.h"
+#include "reed/firmware/controller/for_joints.h"
 #include "reed/plant/endpoint/flexible_arm_body.h"
 #include "reed/plant/endpoint/robot.h"
 #include "reed/tests/support/arms.h"
+
+REED_CONTROLLER_FOR(extern, 5)
+REED_SET_UP_FOR(extern, 5)
 
 namespace reed {
 namespace {

@@ -14,7 +14,7 @@ from processors import OLD_LIBM, PLAIN
 from reed_tools.paths import BUILD, PYTHON, ROOT, program
 
 CYCLES = "1000"  # through the start, the approach and 0.5 s of pressing
-SOURCES = [ROOT / "tests" / "same_bits" / "closed_loop.cc", *sorted((ROOT / "plant_sim" / "dynamics").glob("*.cc")),
+SOURCES = [ROOT / "tests" / "same_bits" / "closed_loop.cc", *(BUILD / "firmware" / "controller" / f"{part}_5.cc" for part in ("controller", "set_up")), *sorted((ROOT / "plant_sim" / "dynamics").glob("*.cc")),
            *(ROOT / name for name in ("plant_sim/endpoint/robot.cc", "plant_sim/endpoint/journal.cc", "plant_sim/drive/drive_chain.cc", "plant_sim/drive/torque_excitation.cc",
                                       "plant_sim/sensor/wrench_sensor.cc", "config/schema/halves.cc", "config/schema/known_mass.cc"))]
 FLAGS = ["-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-DEIGEN_DONT_VECTORIZE"]
@@ -102,7 +102,7 @@ def test_a_run_has_the_same_digest_on_a_processor_without_avx_and_fma(scenario, 
 ELEMENTARY = re.compile(r" U (a?(sin|cos|tan)h?|sincos|atan2|exp(2|10|m1)?|log(2|10|1p)?|pow|hypot|cbrt)f?(@.*)?$", re.M)
 
 
-@pytest.mark.parametrize("library", ["firmware/libreed_cycle.a", "plant_sim/dynamics/libreed_plant_dynamics.a",
+@pytest.mark.parametrize("library", ["firmware/libreed_cycle.a", "firmware/controller/libreed_controller_5.a", "plant_sim/dynamics/libreed_plant_dynamics.a",
                                      "plant_sim/libreed_plant_devices.a", "plant_sim/libreed_plant_endpoint.a"])
 def test_no_elementary_function_is_the_c_librarys(library):
     symbols = subprocess.run(["nm", str(BUILD / library)], check=True, capture_output=True, text=True).stdout

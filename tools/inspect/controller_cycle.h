@@ -4,8 +4,9 @@
 
 #include <array>
 #include <limits>
+#include <string>
 
-#include "reed/core/controller.h"
+#include "reed/firmware/controller/for_joints.h"
 #include "reed/inspect/rigid_cases.h"
 
 namespace reed::inspect {
@@ -13,11 +14,12 @@ namespace reed::inspect {
 template <int N>
 class ControllerCycle {
  public:
-  static constexpr int P = kMaxParameters;
+  static constexpr int P = kLoopParameters<N>;
 
-  ControllerCycle(const Arm<N>& arm, const NamedValues& in, const model::Vec<P>& p_hat)
+  ControllerCycle(const Arm<N>& arm, const NamedValues& in, const model::Vec<kMaxParameters>& p_hat)
       : knots_(Knots(in)),
-        controller_(SettingsOf(arm, in, p_hat), reference::JointPath<N>(knots_, kPeriod_s)) {
+        controller_(SettingsOf(arm, in, p_hat.template head<P>()),
+                    reference::JointPath<N>(knots_, kPeriod_s)) {
     Measurement<N> measured;
     measured.theta = in.Vector<N>("q");
     measured.theta_dot = in.Vector<N>("dq");
@@ -45,12 +47,22 @@ class ControllerCycle {
     return {knot, knot, knot};
   }
 
+  /// The arm in the sizes of the loop.
+  static model::ArmModel<N, P> LoopArm(const Arm<N>& arm) {
+    if (arm.num_parameters > P)
+      throw CaseError("Kd: the arm has " + std::to_string(arm.num_parameters) + " parameters; the loop of " +
+                      std::to_string(N) + " joints allows 0 ... " + std::to_string(P));
+    model::ArmModel<N, P> loop = model::ArmModelFrom<N, P>(arm.nominal);
+    loop.tool_offset = arm.tool_offset;  // that of the case
+    return loop;
+  }
+
   static Settings<N, P> SettingsOf(const Arm<N>& arm, const NamedValues& in, const model::Vec<P>& p_hat) {
     constexpr double kNoLimit = std::numeric_limits<double>::infinity();
     const model::Vec<N> no_limit = model::Vec<N>::Constant(kNoLimit), none = model::Vec<N>::Zero();
     const model::Vec<P> no_parameters = model::Vec<P>::Zero();
     Settings<N, P> s;
-    s.arm = arm;
+    s.arm = LoopArm(arm);
     s.law = strategy::LawId::kFixedNominal;
     s.gains = {.K_d = in.Vector<N>("Kd"),
                .Lambda = in.Vector<N>("Lambda"),

@@ -14,11 +14,13 @@ template <int N>
 struct Arm : model::ArmModel<N, kMaxParameters> {
   explicit Arm(const ArmDescription& description)
       : model::ArmModel<N, kMaxParameters>(model::ArmModelFrom<N, kMaxParameters>(NominalOf(description))),
+        nominal(NominalOf(description)),
         p_true(model::Vec<kMaxParameters>::Zero()) {
     for (int k = 0; k < description.num_parameters(); ++k)
       p_true[k] = description.parameters[static_cast<std::size_t>(k)].truth;
   }
 
+  NominalArm nominal;
   model::Vec<kMaxParameters> p_true;
 };
 
