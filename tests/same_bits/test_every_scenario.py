@@ -85,7 +85,7 @@ def translated(command: str, compiler: str, level: str, folder: Path) -> tuple[l
 def built_by(compiler: str, level: str, folder: Path) -> Path:
     """reed_one_process, from the release build's own commands."""
     lines = subprocess.run(["ninja", "-C", str(BUILD), "-t", "commands", "reed_one_process"], check=True, capture_output=True, text=True).stdout.splitlines()
-    compiled = [translated(line, compiler, level, folder) for line in lines if re.search(r" -c \S+\.c+c?$| -c \S+/(?!cmake_pch)\S+\.c+c?$", line)
+    compiled = [translated(line, compiler, level, folder) for line in lines if re.search(r" -c \S+\.(?:cc?|cxx)$", line)
                 and "cmake_pch" not in line.rpartition(" -c ")[2]]
     assert len(compiled) > 80
     (folder / "include").mkdir()
