@@ -52,7 +52,9 @@ class ForceMode {
         profile_(profile),
         wall_(config.bandwidth_radps / config.gains.k_p, T),
         anchor_(T),
-        T_(T) {}
+        T_(T),
+        follow_(math::Exp(-config.gains.a * T)),
+        forget_(math::Exp(-T / kForget_s)) {}
 
   void Reset() noexcept {
     state_ = {};
@@ -108,7 +110,7 @@ class ForceMode {
     demand.z_dot = control::NormalAcceleration(config_.gains, allowed, state_.z);
     demand.z = state_.z;
     // Exact step of ż = a (u − z): stable for any a T.
-    state_.z = allowed + (state_.z - allowed) * math::Exp(-config_.gains.a * T_);
+    state_.z = allowed + (state_.z - allowed) * follow_;
     return demand;
   }
 
@@ -133,7 +135,7 @@ class ForceMode {
   /// Normal speed at f_d = 0: yields to a force above half of the contact threshold. Less may be the sensor's error:
   /// there the tip holds its position, because following an error would drift without end.
   double Yield(double f, double bandwidth_scale, double x) noexcept {
-    state_.e_f_integral *= math::Exp(-T_ / kForget_s);
+    state_.e_f_integral *= forget_;
     const double half = 0.5 * config_.threshold_N;
     const double felt = f - std::clamp(f, -half, half);
     const double z_d = control::NormalSpeed(Gains(bandwidth_scale), -felt, state_.e_f_integral);
@@ -151,6 +153,7 @@ class ForceMode {
   WallStiffness wall_;
   NormalAnchor anchor_;
   double T_;
+  double follow_, forget_;  // what is left after a period
   control::ForceState state_;
   double contact_s_ = kNoContact;
   bool held_ = false;

@@ -30,9 +30,10 @@ struct Separated : LawBase<N, P> {
     return control::CoulombTorque<N>(x.kappa_hat, in.aux.v, in.gains.friction_speed);  // (48)
   }
   static void Update(const In& in, const model::Vec<P>& Gamma, const V& Gamma_c, State& x) noexcept {
-    x.UpdateParameters(in.gains, Gamma, in.arm, in.regressor.Y, in.s, in.T);
-    x.UpdateFriction(in.gains, Gamma_c, in.aux.v, in.s, in.T);
-    x.UpdateSliding(in.gains, in.s, in.T);
+    const V s_dz = control::DeadZone(in.s, in.gains.dead_zone);
+    x.UpdateParameters(in.gains, Gamma, in.arm, in.regressor.Y, s_dz, in.T);
+    x.UpdateFriction(in.gains, Gamma_c, in.aux.v, s_dz, in.T);
+    x.UpdateSliding(in.gains, s_dz, in.T);
   }
 };
 
