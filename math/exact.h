@@ -4,9 +4,11 @@
 
 namespace reed::math {
 
-struct Exact {
-  double value, rest;
+template <typename T>
+struct ExactOf {
+  T value, rest;
 };
+using Exact = ExactOf<double>;
 
 constexpr Exact Sum(double a, double b) noexcept {
   const double s = a + b, b_in_s = s - a;
@@ -14,8 +16,9 @@ constexpr Exact Sum(double a, double b) noexcept {
 }
 
 /// Pre: |a| >= |b|.
-constexpr Exact SumOfOrdered(double a, double b) noexcept {
-  const double s = a + b;
+template <typename T>
+constexpr ExactOf<T> SumOfOrdered(const T& a, const T& b) noexcept {
+  const T s = a + b;
   return {s, b - (s - a)};
 }
 

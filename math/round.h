@@ -11,11 +11,14 @@ struct Nearest {
   std::int64_t integer;
 };
 
-/// Pre: |x| < 2^51, rounding to nearest. 1.5 * 2^52 leaves no bit below one.
+/// Added to a number, it leaves no bit below one; the last bits of the sum are those of the integer.
+inline constexpr double kIntegerShift = 0x1.8p52;
+
+/// Pre: |x| < 2^51, rounding to nearest.
 constexpr Nearest NearestInteger(double x) noexcept {
-  constexpr double kShift = 0x1.8p52;
-  const double shifted = x + kShift;
-  return {shifted - kShift, std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(kShift)};
+  const double shifted = x + kIntegerShift;
+  return {shifted - kIntegerShift,
+          std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(kIntegerShift)};
 }
 
 /// 2^n. Pre: -1022 <= n <= 1023.

@@ -50,12 +50,12 @@ class Separated {
                           Workload workload = Workload::kFull) noexcept {
     const bool full = workload == Workload::kFull;
     Decision<N>& d = decision_;
-    model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_);
+    d.plan = path_.At(t_s);
+    model::ForwardKinematics<N, P>(arm_, measured.theta, measured.theta_dot, kin_, d.plan.theta_d, planned_);
+    d.tip_plan = planned_.tip;
     sensor_.Turn(arm_, kin_);
 
     disturbance_.Update(measured, kin_, adaptive_.kappa_hat, gains_.friction_speed);
-    d.plan = path_.At(t_s);
-    d.tip_plan = PlannedTip(d.plan);
     if (wall_present_) d.normal = control::PureNormalTranslation<N>(kin_.J, normal_);
     d.source = Source(measured, t_s, active);
     d.f = normal_force_.Step(d.source, sensor_.Read(measured.force, normal_),
@@ -66,10 +66,9 @@ class Separated {
                  : model::Wrench{};
     ScaleBandwidth(d.source);
     d.force = active && d.source != ForceSource::kNone ? SeekForce(d, t_s) : ForceDemand{};
-    d.desired = active
-                    ? deflection_.Step(d.plan, plan_kin_, adaptive_.p_hat, d.force.f_d, force_.in_contact(),
-                                       full)  // (22)
-                    : d.plan;
+    d.desired = active ? deflection_.Step(d.plan, planned_, adaptive_.p_hat, d.force.f_d, force_.in_contact(),
+                                          full)  // (22)
+                       : d.plan;
     Aim(d, measured);
 
     model::ComputeRegressor<N, P>(arm_, kin_, d.aux.v, d.aux.v_dot, regressor_);
@@ -154,11 +153,6 @@ class Separated {
     return force_.Step(t_s, d.f, motion, bandwidth_scale_, sensed);
   }
 
-  Eigen::Vector3d PlannedTip(const control::Reference<N>& plan) noexcept {
-    model::ForwardKinematics<N, P>(arm_, plan.theta_d, plan.theta_d_dot, plan_kin_);
-    return plan_kin_.tip;
-  }
-
   /// v, v̇, s: the reference of the law (22)-(25), (30).
   void Aim(Decision<N>& d, const Measurement<N>& measured) noexcept {
     d.aux = control::Surface<N>(d.desired, gains_.Lambda, measured.theta, measured.theta_dot);
@@ -208,7 +202,8 @@ class Separated {
   CollisionDetector<N> collision_;
   double bandwidth_scale_ = 1.0;
 
-  model::Kinematics<N> kin_, plan_kin_;
+  model::Kinematics<N> kin_;
+  model::LinkPoses<N> planned_;
   model::Regressor<N, P> regressor_;
   Decision<N> decision_;
   model::Vec<N> kappa_rate_;  // κ of computed torque, 1/s

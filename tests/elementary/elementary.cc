@@ -18,4 +18,8 @@ REED_EACH(Log, Log(x[i]))
 REED_EACH(Tanh, Tanh(x[i]))
 REED_EACH(Atan2, Atan2(y[i], x[i]))
 REED_EACH(Length, Length(x[i], y[i]))
+REED_EACH(SinFirst, SinCos(x[i], y[i]).sine.first())
+REED_EACH(CosFirst, SinCos(x[i], y[i]).cosine.first())
+REED_EACH(SinSecond, SinCos(x[i], y[i]).sine.second())
+REED_EACH(CosSecond, SinCos(x[i], y[i]).cosine.second())
 }

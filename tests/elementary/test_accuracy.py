@@ -101,6 +101,15 @@ def test_beyond_2_to_20_rad_the_period_is_the_nearest_double_to_two_pi(call):
     assert np.array_equal(call("Sin", x), call("Sin", reduced)) and np.array_equal(call("Cos", x), call("Cos", reduced))
 
 
+@pytest.mark.parametrize("name", ["Sin", "Cos"])
+def test_of_two_angles_at_once_has_the_bits_of_each_alone(call, name):
+    x = np.concatenate([angles(), [0.0, -0.0, 2.0**20 + 1.0, 1e300, math.inf, math.nan, 1.0]])
+    y = np.random.default_rng(6).permutation(x)
+    for place, of in (("First", x), ("Second", y)):
+        at_once, alone = call(name + place, x, y), call(name, of)
+        assert np.array_equal(at_once, alone, equal_nan=True) and np.array_equal(np.signbit(at_once), np.signbit(alone))
+
+
 @pytest.mark.parametrize("name, x, wanted", [
     ("Sin", [0.0], [0.0]), ("Cos", [0.0], [1.0]),
     ("Sin", [math.inf, -math.inf, math.nan], [math.nan] * 3), ("Cos", [math.inf, math.nan], [math.nan] * 2),

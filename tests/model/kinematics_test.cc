@@ -66,7 +66,27 @@ TEST_F(SkewArmKinematics, JdotQdIsTheDerivativeOfTheTipVelocityAtConstantSpeed) 
   for (int n = 0; n < 50; ++n) {
     const Vec<6> q = draw_.Vector<6>(3.0), qd = draw_.Vector<6>(2.0);
     const Vec6 ahead = At(q + h * qd, qd).tip_velocity(), behind = At(q - h * qd, qd).tip_velocity();
-    EXPECT_NEAR(((ahead - behind) / (2.0 * h) - At(q, qd).Jdot_qd).norm(), 0.0, 1e-8);
+    EXPECT_NEAR(((ahead - behind) / (2.0 * h) - TipAcceleration(arm_, At(q, qd))).norm(), 0.0, 1e-8);
+  }
+}
+
+TEST_F(SkewArmKinematics, TwoPosesAtOnceHaveTheBitsOfEachAlone) {
+  for (int n = 0; n < 20; ++n) {
+    const Vec<6> q = draw_.Vector<6>(3.0), qd = draw_.Vector<6>(2.0), other = draw_.Vector<6>(3.0);
+    Kinematics<6> at_once;
+    LinkPoses<6> planned;
+    ForwardKinematics(arm_, q, qd, at_once, other, planned);
+    const Kinematics<6> alone = At(q, qd), planned_alone = At(other, qd);
+    EXPECT_EQ(at_once.J, alone.J);
+    EXPECT_EQ(at_once.tip, alone.tip);
+    EXPECT_EQ(at_once.v[5], alone.v[5]);
+    EXPECT_EQ(planned.J, planned_alone.J);
+    EXPECT_EQ(planned.tip, planned_alone.tip);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_EQ(at_once.R[i], alone.R[i]);
+      EXPECT_EQ(planned.R[i], planned_alone.R[i]);
+      EXPECT_EQ(planned.p[i], planned_alone.p[i]);
+    }
   }
 }
 

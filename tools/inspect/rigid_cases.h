@@ -53,7 +53,7 @@ void PutDynamics(const Arm<N>& arm, const model::Kinematics<N>& kin, const Named
   out.SetMatrix("M", model::MassMatrix(bodies, kin));
   out.SetVector("G", model::GravityTorque(bodies, kin, arm.gravity));
   out.SetVector("C_qd", model::CoriolisTorque(bodies, kin));
-  out.SetVector("Jdot_qd", kin.Jdot_qd);
+  out.SetVector("Jdot_qd", model::TipAcceleration(arm, kin));
   out.SetScalar("kinetic", model::KineticEnergy(bodies, kin));
   out.SetScalar("potential", model::PotentialEnergy(bodies, kin, arm.gravity));
   if (in.Has("qdd")) {

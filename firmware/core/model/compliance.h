@@ -60,12 +60,12 @@ inline Deflection SofterPlane(const Member& beam, const Eigen::Vector3d& y, cons
 /// One pass from tip to base: the wrench that each member and each spring carries, what it yields, and what
 /// that does to the tool point. Springs are linear here; hardening belongs to SpringAngle.
 template <int N, int P>
-SerialDeflections<N> DeflectSerially(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
+SerialDeflections<N> DeflectSerially(const ArmModel<N, P>& arm, const LinkPoses<N>& pose,
                                      const StructuralLoads<N>& loads) {
   using Eigen::Vector3d;
   SerialDeflections<N> out;
   Wrench W = loads.tip;  // of everything further out, about the point c
-  Vector3d c = kin.tip;
+  Vector3d c = pose.tip;
   const auto move_to = [&](const Vector3d& point) {
     W.n += (c - point).cross(W.F);
     c = point;
@@ -73,28 +73,28 @@ SerialDeflections<N> DeflectSerially(const ArmModel<N, P>& arm, const Kinematics
   int j = arm.num_members - 1;
   for (int i = N - 1; i >= 0; --i) {
     if (arm.carrier[i] < 0) {
-      move_to(kin.p[i]);
+      move_to(pose.p[i]);
       W.F += loads.rigid_link[i].F;
       W.n += loads.rigid_link[i].n;
     }
     for (; j >= 0 && arm.member[j].link == i; --j) {
       const Member& beam = arm.member[j];
       const MemberLoad& load = loads.member[j];
-      const Eigen::Matrix3d& R = kin.R[i];
-      const auto [start, t, end] = LineOf(beam, R, kin.p[i]);
+      const Eigen::Matrix3d& R = pose.R[i];
+      const auto [start, t, end] = LineOf(beam, R, pose.p[i]);
       move_to(end);
       W.F += load.end.F;
       W.n += load.end.n;
       out.member[j] = Cantilever(beam, t, W, load.spread);
       if (beam.softer != 0.0)
         out.member[j].AddRigidly(SofterPlane(beam, R * beam.y, R * beam.z, W, load.spread), Vector3d::Zero());
-      out.tip_links.AddRigidly(out.member[j], kin.tip - c);
+      out.tip_links.AddRigidly(out.member[j], pose.tip - c);
       move_to(start);
       W.n += (0.5 * beam.length) * t.cross(load.spread);
       W.F += load.spread + load.start;
     }
-    const Vector3d z = kin.R[i].col(2);
-    out.torque(i) = z.dot(W.n + (c - kin.p[i]).cross(W.F));
+    const Vector3d z = pose.R[i].col(2);
+    out.torque(i) = z.dot(W.n + (c - pose.p[i]).cross(W.F));
     out.spring(i) = out.torque(i) / arm.joint_stiffness(i);  // (6) W = k_q ξ
   }
   return out;
@@ -102,10 +102,10 @@ SerialDeflections<N> DeflectSerially(const ArmModel<N, P>& arm, const Kinematics
 
 /// Tool point, from the springs alone.
 template <int N>
-Deflection TipBySprings(const Kinematics<N>& kin, const SerialDeflections<N>& serial) {
+Deflection TipBySprings(const LinkPoses<N>& pose, const SerialDeflections<N>& serial) {
   Deflection tip;
   for (int i = N - 1; i >= 0; --i)
-    tip.AddRigidly({Eigen::Vector3d::Zero(), serial.spring(i) * kin.R[i].col(2)}, kin.tip - kin.p[i]);
+    tip.AddRigidly({Eigen::Vector3d::Zero(), serial.spring(i) * pose.R[i].col(2)}, pose.tip - pose.p[i]);
   return tip;
 }
 
@@ -113,7 +113,7 @@ enum class JointModel { kRigid, kElastic };
 
 /// Deflection of the end node of every member, from base to tip.
 template <int N, int P>
-FixedArray<Deflection, 2 * N> NodeDeflections(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
+FixedArray<Deflection, 2 * N> NodeDeflections(const ArmModel<N, P>& arm, const LinkPoses<N>& pose,
                                               const SerialDeflections<N>& serial, JointModel joints) {
   using Eigen::Vector3d;
   FixedArray<Deflection, 2 * N> node;
@@ -125,10 +125,10 @@ FixedArray<Deflection, 2 * N> NodeDeflections(const ArmModel<N, P>& arm, const K
   };
   int j = 0;
   for (int i = 0; i < N; ++i) {
-    move_to(kin.p[i]);
-    if (joints == JointModel::kElastic) at.phi += serial.spring(i) * kin.R[i].col(2);
+    move_to(pose.p[i]);
+    if (joints == JointModel::kElastic) at.phi += serial.spring(i) * pose.R[i].col(2);
     for (; j < arm.num_members && arm.member[j].link == i; ++j) {
-      move_to(LineOf(arm.member[j], kin.R[i], kin.p[i]).end);
+      move_to(LineOf(arm.member[j], pose.R[i], pose.p[i]).end);
       at.u += serial.member[j].u;
       at.phi += serial.member[j].phi;
       node[j] = at;
@@ -139,18 +139,18 @@ FixedArray<Deflection, 2 * N> NodeDeflections(const ArmModel<N, P>& arm, const K
 
 /// 6x6 compliance of the tool point from the springs: J K_q⁻¹ Jᵀ. Its rank is at most N.
 template <int N, int P>
-Mat6 JointCompliance(const ArmModel<N, P>& arm, const Kinematics<N>& kin) {
-  return kin.J * arm.joint_stiffness.cwiseInverse().asDiagonal() * kin.J.transpose();
+Mat6 JointCompliance(const ArmModel<N, P>& arm, const LinkPoses<N>& pose) {
+  return pose.J * arm.joint_stiffness.cwiseInverse().asDiagonal() * pose.J.transpose();
 }
 
 /// 6x6 compliance of the tool point from the members, rows and columns linear then angular.
 template <int N, int P>
-Mat6 LinkCompliance(const ArmModel<N, P>& arm, const Kinematics<N>& kin) {
+Mat6 LinkCompliance(const ArmModel<N, P>& arm, const LinkPoses<N>& pose) {
   Mat6 C;
   for (int column = 0; column < 6; ++column) {
     StructuralLoads<N> unit;
     (column < 3 ? unit.tip.F(column) : unit.tip.n(column - 3)) = 1.0;
-    C.col(column) = DeflectSerially(arm, kin, unit).tip_links.AsVector();
+    C.col(column) = DeflectSerially(arm, pose, unit).tip_links.AsVector();
   }
   return C;
 }

@@ -39,22 +39,22 @@ Vec<N> DampedInverse(const Mat<6, N>& J, const Eigen::Vector3d& u, double lambda
   return J_v.transpose() * y;
 }
 
-/// Static deflection at the state of `kin` (θ_plan, or θ nearby) under the weight of `bodies` and
+/// Static deflection at the state of `pose` (θ_plan, or θ nearby) under the weight of `bodies` and
 /// `tip_wrench`, the environment's wrench on the tool point (force, moment about it; world axes).
 template <int N, int P>
-StaticDeflection<N> CompensateDeflection(const ArmModel<N, P>& arm, const Kinematics<N>& kin,
+StaticDeflection<N> CompensateDeflection(const ArmModel<N, P>& arm, const LinkPoses<N>& pose,
                                          const Bodies<N>& bodies, const Wrench& tip_wrench) {
   constexpr double kDamping_m = 1e-3;  // costs 1 ppm of the correction where the arm is 1 m from singular
   StructuralLoads<N> loads;
   loads.tip = tip_wrench;
-  AddBodyWeight(arm, kin, bodies, loads);
-  const SerialDeflections<N> bent = DeflectSerially(arm, kin, loads);
+  AddBodyWeight(arm, pose, bodies, loads);
+  const SerialDeflections<N> bent = DeflectSerially(arm, pose, loads);
   StaticDeflection<N> out;
   for (int i = 0; i < N; ++i) {
     out.spring(i) = SpringAngle(-bent.torque(i), arm.joint_stiffness(i), arm.joint_hardening(i));
   }
   out.link_u = bent.tip_links.u;
-  out.offset = out.spring - DampedInverse(kin.J, out.link_u, kDamping_m);
+  out.offset = out.spring - DampedInverse(pose.J, out.link_u, kDamping_m);
   return out;
 }
 

@@ -53,14 +53,14 @@ inline MassOnMember LayOnMember(const MassMoments& body, const Member& beam) {
 
 /// Adds the weight of the bodies.
 template <int N, int P>
-void AddBodyWeight(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const Bodies<N>& bodies,
+void AddBodyWeight(const ArmModel<N, P>& arm, const LinkPoses<N>& pose, const Bodies<N>& bodies,
                    StructuralLoads<N>& loads) {
   const Eigen::Vector3d& g = arm.gravity;
   for (int i = 0; i < N; ++i) {
     const MassMoments& body = bodies.link[i];
     if (arm.carrier[i] < 0) {
       loads.rigid_link[i].F += body.m * g;
-      loads.rigid_link[i].n += (kin.R[i] * body.h).cross(g);
+      loads.rigid_link[i].n += (pose.R[i] * body.h).cross(g);
       continue;
     }
     const MassOnMember mass = LayOnMember(body, arm.member[arm.carrier[i]]);
@@ -68,7 +68,7 @@ void AddBodyWeight(const ArmModel<N, P>& arm, const Kinematics<N>& kin, const Bo
     load.start += mass.start * g;
     load.spread += mass.spread * g;
     load.end.F += mass.end * g;
-    load.end.n += (kin.R[i] * mass.off_axis).cross(g);
+    load.end.n += (pose.R[i] * mass.off_axis).cross(g);
   }
 }
 

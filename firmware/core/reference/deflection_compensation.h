@@ -16,16 +16,16 @@ class DeflectionCompensation {
 
   void Reset() noexcept { smooth_.Reset(); }
 
-  /// plan_kin: kinematics at the plan. p_hat: parameters as estimated. f_d: N. update: false keeps the offset of the
+  /// planned: the poses at the plan. p_hat: parameters as estimated. f_d: N. update: false keeps the offset of the
   /// last cycle. In contact p̂ also explains what the wall does, so the weight is that of the last free estimate.
-  control::Reference<N> Step(const control::Reference<N>& plan, const model::Kinematics<N>& plan_kin,
+  control::Reference<N> Step(const control::Reference<N>& plan, const model::LinkPoses<N>& planned,
                              const model::Vec<P>& p_hat, double f_d, bool in_contact, bool update) noexcept {
     if (compensate_ && update) {
       if (!in_contact) p_free_ = p_hat;
       const model::Bodies<N> bodies = model::BodiesFor<N, P>(arm_, p_free_);
       model::Wrench press;
       press.F = f_d * normal_;
-      offset_ = model::CompensateDeflection<N, P>(arm_, plan_kin, bodies, press).offset;
+      offset_ = model::CompensateDeflection<N, P>(arm_, planned, bodies, press).offset;
     }
     return smooth_.Step(plan, offset_);
   }
