@@ -60,4 +60,7 @@ class Pair {
 };
 #endif
 
+inline double SumOf(const Pair& pair) { return pair.first() + pair.second(); }
+inline double SumOf(double alone) { return alone; }
+
 }  // namespace reed::math

@@ -15,6 +15,7 @@
 
 #include "reed/core/law/surface.h"
 #include "reed/core/model/positive_solver.h"
+#include "reed/math/side_by_side.h"
 
 namespace reed::control {
 
@@ -27,32 +28,44 @@ struct NormalDirection {
 /// Damping relative to the mean squared singular value: below the arm's own accuracy, above rounding.
 inline constexpr double kRelativeDamping = 1e-12;
 
+inline constexpr int kCorrections = 2;
+
 /// J⁺ [n; 0] as above.
 template <int N>
 Vec<N> PseudoInverseOfNormal(const Mat<6, N>& J, const Eigen::Vector3d& n) noexcept {
-  constexpr int kSmaller = N < 6 ? N : 6, kCorrections = 2;
+  constexpr int kSmaller = N < 6 ? N : 6;
   const double epsilon = kRelativeDamping * J.squaredNorm() / kSmaller;
-  Mat<kSmaller, kSmaller> A;
-  if constexpr (N < 6) {
-    A = J.transpose().lazyProduct(J);
-  } else {
-    A = J.lazyProduct(J.transpose());  // not blocked: Eigen's blocked product allocates from eight joints on
-  }
-  for (int i = 0; i < kSmaller; ++i) A(i, i) += epsilon;
-  const math::PositiveSolver<kSmaller> damped(A);
-  Vec<6> rest;  // b - J x
-  rest << n, 0.0, 0.0, 0.0;
   Vec<N> x = Vec<N>::Zero(), step;
-  for (int pass = 0; pass <= kCorrections; ++pass) {
-    if constexpr (N < 6) {
-      step.noalias() = J.transpose() * rest;
-      step = damped.Solve(step);
-    } else {
-      const Vec<6> y = damped.Solve(rest);
-      step.noalias() = J.transpose() * y;
+  if constexpr (N < 6) {
+    const auto S = math::Halved(J);
+    using T = typename decltype(S)::Scalar;
+    Mat<N, N> A;  // its lower half
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j <= i; ++j) A(i, j) = math::SumOf(S.col(i).dot(S.col(j)));
+      A(i, i) += epsilon;
     }
-    x += step;
-    rest.noalias() -= J * step;
+    const math::PositiveSolver<N> damped(A);
+    Vec<6> b;
+    b << n, 0.0, 0.0, 0.0;
+    auto rest = math::Halved(b);  // b - J x
+    for (int pass = 0; pass <= kCorrections; ++pass) {
+      if (pass > 0) rest.noalias() -= S * step.template cast<T>();
+      for (int i = 0; i < N; ++i) step(i) = math::SumOf(S.col(i).dot(rest));
+      step = damped.Solve(step);
+      x += step;
+    }
+  } else {
+    Mat<6, 6> A =
+        J.lazyProduct(J.transpose());  // not blocked: Eigen's blocked product allocates from eight joints on
+    A.diagonal().array() += epsilon;
+    const math::PositiveSolver<6> damped(A);
+    Vec<6> rest;  // b - J x
+    rest << n, 0.0, 0.0, 0.0;
+    for (int pass = 0; pass <= kCorrections; ++pass) {
+      if (pass > 0) rest.noalias() -= J * step;
+      step.noalias() = J.transpose() * damped.Solve(rest);
+      x += step;
+    }
   }
   return x;
 }

@@ -15,7 +15,7 @@ template <int N>
 Eigen::Vector3d EstimateTipForce(const Mat<6, N>& J, const Vec<N>& r) noexcept {
   constexpr double kRankDamping = 1e-6;  // of the mean squared singular value; a planar arm has rank 2
   const Mat<3, N> J_v = J.template topRows<3>();
-  Eigen::Matrix3d A = J_v * J_v.transpose();
+  Eigen::Matrix3d A = math::LowerGram(J_v);
   A.diagonal().array() += kRankDamping * A.trace() / 3.0;
   const Eigen::Vector3d b = J_v * r;
   return math::SolvePositive<3>(A, b);  // (50)

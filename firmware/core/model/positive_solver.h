@@ -15,14 +15,15 @@ class PositiveSolver {
   using Matrix = Eigen::Matrix<double, N, N>;
   using Vector = Eigen::Matrix<double, N, 1>;
 
-  explicit PositiveSolver(const Matrix& A) noexcept : L_(A) {
+  /// Reads the lower half.
+  explicit PositiveSolver(const Matrix& A) noexcept {
     for (int j = 0; j < N; ++j) {
-      double d = L_(j, j);
+      double d = A(j, j);
       for (int k = 0; k < j; ++k) d -= L_(j, k) * L_(j, k) * d_(k);
       d_(j) = d;
       inverse_d_(j) = d > 0.0 ? 1.0 / d : 0.0;
       for (int i = j + 1; i < N; ++i) {
-        double sum = L_(i, j);
+        double sum = A(i, j);
         for (int k = 0; k < j; ++k) sum -= L_(i, k) * L_(j, k) * d_(k);
         L_(i, j) = sum * inverse_d_(j);
       }
@@ -44,6 +45,15 @@ class PositiveSolver {
   Matrix L_;  // strictly below the diagonal
   Vector d_, inverse_d_;
 };
+
+/// The lower half of J Jᵀ.
+template <int R, int C>
+Eigen::Matrix<double, R, R> LowerGram(const Eigen::Matrix<double, R, C>& J) noexcept {
+  Eigen::Matrix<double, R, R> A;
+  for (int i = 0; i < R; ++i)
+    for (int j = 0; j <= i; ++j) A(i, j) = J.row(i).dot(J.row(j));
+  return A;
+}
 
 /// A deduces N.
 template <int N>

@@ -33,7 +33,7 @@ inline double SpringAngle(double torque, double k, double k3) {
 template <int N>
 Vec<N> DampedInverse(const Mat<6, N>& J, const Eigen::Vector3d& u, double lambda) {
   const Mat<3, N> J_v = J.template topRows<3>();
-  Eigen::Matrix3d A = J_v * J_v.transpose();
+  Eigen::Matrix3d A = math::LowerGram(J_v);
   A.diagonal().array() += lambda * lambda;
   const Eigen::Vector3d y = math::SolvePositive<3>(A, u);
   return J_v.transpose() * y;
