@@ -11,6 +11,7 @@ import time
 import distributed
 import pytest
 from engine_items import DRAWS
+from process_tree import children, command_line
 
 from reed_tools.paths import BUILD, PYTHON, ROOT
 
@@ -38,27 +39,15 @@ def await_records(folder, process, count=1):
         time.sleep(0.02)
 
 
-def children(pid):
-    """Of a process, by the kernel's own list; all of its threads."""
-    found = set()
-    for task in os.listdir(f"/proc/{pid}/task"):
-        with open(f"/proc/{pid}/task/{task}/children") as file:
-            found |= {int(number) for number in file.read().split()}
-    return found
-
-
 def descendants(pid):
     found = set()
     for child in children(pid):
-        try:
-            found |= {child} | descendants(child)
-        except OSError:  # it has just ended
-            continue
+        found |= {child} | descendants(child)
     return found
 
 
 def workers(pid):
-    return [child for child in children(pid) if "spawn_main" in open(f"/proc/{child}/cmdline").read()]
+    return [child for child in children(pid) if "spawn_main" in command_line(child)]
 
 
 def alive(pid):

@@ -11,6 +11,7 @@ import time
 from dataclasses import dataclass
 
 import pytest
+from process_tree import children, command_line
 
 from reed_tools.campaign import definition
 from reed_tools.campaign.draws import Record
@@ -265,13 +266,10 @@ def kill_a_worker(process):
     """Of those that the tool has started, while it runs something."""
     end = time.monotonic() + 120
     while time.monotonic() < end:
-        for task in os.listdir(f"/proc/{process.pid}/task"):
-            for child in open(f"/proc/{process.pid}/task/{task}/children").read().split():
-                if "spawn_main" in open(f"/proc/{child}/cmdline").read() and any(
-                        "--config\0press_known" in open(f"/proc/{one}/cmdline").read() for thread in os.listdir(f"/proc/{child}/task")
-                        for one in open(f"/proc/{child}/task/{thread}/children").read().split()):
-                    os.kill(int(child), signal.SIGKILL)
-                    return
+        for child in children(process.pid):
+            if "spawn_main" in command_line(child) and any("--config\0press_known" in command_line(one) for one in children(child)):
+                os.kill(child, signal.SIGKILL)
+                return
         time.sleep(0.01)
     raise AssertionError("no worker ran anything")
 
