@@ -11,7 +11,7 @@ namespace {
 /// Polling, because waking this thread would cost the loop a system call; the ring holds many times this.
 /// Often where a viewer may listen, because a burst overflows the socket of a slow listener. Rarely where none
 /// can, because on one CPU the wake-ups cost as much as a fifth of the loop.
-constexpr std::int64_t kPollNs = 2'000'000, kPollUnheardNs = 10'000'000;
+constexpr std::int64_t kPollNs = 2'000'000, kPollUnheardNs = 5'000'000;
 /// Snapshots between two looks at the clock.
 constexpr int kBatch = 64;
 /// How much of a run a crash may cost.

@@ -75,7 +75,7 @@ void Publisher::Run() {
     // Asking for data this often costs less than a wake-up per record would cost the simulation; a listener
     // needs small bursts, a log alone can take large ones.
     if (drained && !last_round)
-      std::this_thread::sleep_for(std::chrono::milliseconds(network_.enabled() ? 2 : 10));
+      std::this_thread::sleep_for(std::chrono::milliseconds(network_.enabled() ? 2 : 5));
   }
   log_.Flush();
   done_.store(true, std::memory_order_release);
